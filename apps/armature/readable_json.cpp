@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/json_text.hpp"
+
 namespace armature {
 namespace {
 
@@ -13,11 +15,11 @@ constexpr std::size_t kColumns = 100;
 
 /// `"key": ` of an object's member, nothing of a list's.
 std::string label(const Json& container, const Json::const_iterator& item) {
-  return container.is_object() ? Json(item.key()).dump() + ": " : "";
+  return container.is_object() ? json_text(Json(item.key())) + ": " : "";
 }
 
 std::string one_line(const Json& json) {
-  if (!json.is_structured()) return json.dump();
+  if (!json.is_structured()) return json_text(json);
   std::string text;
   for (auto item = json.begin(); item != json.end(); ++item) {
     text += (text.empty() ? "" : ", ") + label(json, item) + one_line(*item);

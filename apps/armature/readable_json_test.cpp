@@ -17,6 +17,11 @@ TEST(ReadableJson, PutsWhatFitsIntoALineThere) {
   EXPECT_EQ(readable(Json::object()), "{}");
 }
 
+TEST(ReadableJson, ShowsBytesThatAreNoCharacterAsOneThatSaysSo) {
+  EXPECT_EQ(readable(Json{{"data", "Eintritt \xFC"}}), "{\"data\": \"Eintritt \xEF\xBF\xBD\"}");
+  EXPECT_EQ(readable(Json{{"\xFF", 1}}), "{\"\xEF\xBF\xBD\": 1}");
+}
+
 TEST(ReadableJson, KeepsALongListOfNumbersInOneLine) {
   Json image{{"encoding", "mono8"}, {"data", {{"octets", 921600}, {"first", Json::array()}}}};
   for (int i = 0; i < 64; ++i) image["data"]["first"].push_back(i);

@@ -14,6 +14,7 @@
 
 #include "armature/runtime/plugins/setup_error.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/json_text.hpp"
 #include "board_pictures.hpp"
 #include "rectification.hpp"
 #include "written_calibration.hpp"
@@ -130,8 +131,8 @@ int calibrate(const Json& options) {
                   shape.columns, shape.rows, 1e3 * square_m);
   std::string table;
   for (const auto& [name, value] : figures.items()) {
-    comment += fmt::format("#   {:<24}{}\n", name, value.dump());
-    table += fmt::format("  {:<24}{}\n", name, value.dump());
+    comment += fmt::format("#   {:<24}{}\n", name, json_text(value));
+    table += fmt::format("  {:<24}{}\n", name, json_text(value));
   }
   write_atomically(output, opencv_text(fit->calibration, comment), FileUse::named_by_user);
   if (!rig.empty()) write_atomically(rig, rig_text(made->camera, output), FileUse::named_by_user);
@@ -139,7 +140,7 @@ int calibrate(const Json& options) {
     write_atomically(cover, coverage_svg(pictures.views, pictures.width, pictures.height),
                      FileUse::named_by_user);
   }
-  fmt::print("{}", options["json"].get<bool>() ? figures.dump(1) + "\n" : table);
+  fmt::print("{}", options["json"].get<bool>() ? json_text(figures, 1) + "\n" : table);
   return kOk;
 }
 

@@ -19,7 +19,7 @@ namespace {
 using testing::ContainsRegex, testing::HasSubstr, testing::Not;
 
 constexpr std::chrono::seconds kAtMost{30};
-constexpr int kRefused = 1, kInvalid = 3, kTimedOut = 5;
+constexpr int kRefused = 1, kUsage = 2, kInvalid = 3, kTimedOut = 5;
 
 class OperatorTest : public testing::Test {
  protected:
@@ -182,6 +182,12 @@ TEST_F(OperatorTest, WhereNothingRunsHeIsToldSo) {
   EXPECT_EQ(result.exit_code, kTimedOut);
   EXPECT_THAT(result.err,
               HasSubstr("no task of 'sr1_biopsy' tells what it does in domain " + domain_));
+}
+
+TEST_F(OperatorTest, AStepThatIsNoTextIsRefusedBeforeAnybodyHearsIt) {
+  const CommandResult result = say("confirm", {"--step", "Eintritt \xFC"});
+  EXPECT_EQ(result.exit_code, kUsage);
+  EXPECT_THAT(result.err, HasSubstr("'Eintritt \\xfc' is not UTF-8, as text on topics is"));
 }
 
 TEST_F(OperatorTest, AComponentThatIsNoTaskIsNamed) {

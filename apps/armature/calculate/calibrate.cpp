@@ -22,6 +22,7 @@
 #include "armature/calibration/recorded_poses.hpp"
 #include "armature/config/document.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "readable_json.hpp"
 
@@ -60,7 +61,7 @@ Node to_node(const Json& json) {
     for (const auto& [key, value] : json.items()) entries.push_back({key, {}, to_node(value)});
     return Node::map(std::move(entries), {});
   }
-  return Node::scalar(json.is_string() ? json.get<std::string>() : json.dump(), false, {});
+  return Node::scalar(json.is_string() ? json.get<std::string>() : json_text(json), false, {});
 }
 
 /// The robot whose joints are told, with the flange for its tool.

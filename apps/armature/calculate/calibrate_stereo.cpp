@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 
 namespace armature {
@@ -16,12 +17,15 @@ namespace armature {
 int run_stereo_calibration(const StereoCalibrationOptions& options) {
   const auto program =
       std::filesystem::canonical("/proc/self/exe").parent_path() / "armature-calibrate-stereo";
-  const std::string words =
-      nlohmann::json{
-          {"left", options.left},           {"right", options.right},     {"board", options.board},
-          {"square_mm", options.square_mm}, {"output", options.output},   {"rig", options.rig},
-          {"coverage", options.coverage},   {"with_k3", options.with_k3}, {"json", options.json}}
-          .dump();
+  const std::string words = json_text(nlohmann::json{{"left", options.left},
+                                                     {"right", options.right},
+                                                     {"board", options.board},
+                                                     {"square_mm", options.square_mm},
+                                                     {"output", options.output},
+                                                     {"rig", options.rig},
+                                                     {"coverage", options.coverage},
+                                                     {"with_k3", options.with_k3},
+                                                     {"json", options.json}});
   execl(program.c_str(), program.c_str(), words.c_str(), nullptr);
   fmt::print(stderr, "{}: {}{}\n", program.string(), std::strerror(errno),
              errno == ENOENT ? "; it is built where OpenCV is: -DARMATURE_VISION=ON" : "");

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/json_text.hpp"
 #include "colour.hpp"
 #include "doctor/gather.hpp"
 #include "doctor/judge.hpp"
@@ -30,7 +31,7 @@ void print_json(const std::vector<Finding>& findings) {
                                {"hint", finding.hint}});
   }
   // A file's name may be no UTF-8.
-  fmt::print("{}\n", all.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+  fmt::print("{}\n", json_text(all));
 }
 
 /// A reason may have several lines; a finding has one.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/json_text.hpp"
+
 namespace armature::drill {
 namespace {
 
@@ -79,7 +81,7 @@ std::string to_json(const std::string& deployment, std::uint64_t seed,
                               {"faults", rows},           {"passed", passed},
                               {"failed", failed},         {"not_tried", not_tried}};
   if (stopped) json["stopped"] = *stopped;
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+  return json_text(json);
 }
 
 }  // namespace armature::drill

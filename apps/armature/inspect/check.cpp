@@ -16,6 +16,7 @@
 #include "armature/runtime/deployment_file/component_config.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "inspect/origin_json.hpp"
 #include "inspect/plugins.hpp"
@@ -164,7 +165,7 @@ int check_as_json(const DeploymentSource& source) {
     code = exit_code_of(error);
   }
   const Json json = findings_json(findings, std::move(problems));
-  fmt::print("{}\n", json.dump(-1, ' ', false, Json::error_handler_t::replace));
+  fmt::print("{}\n", json_text(json));
   return code;
 }
 

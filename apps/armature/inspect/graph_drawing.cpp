@@ -9,6 +9,8 @@
 #include <ranges>
 #include <set>
 
+#include "armature/values/json_text.hpp"
+
 namespace armature {
 namespace {
 
@@ -44,7 +46,7 @@ std::string json_of(const DrawnGraph& graph) {
     json[name] = {
         {"type", topic.type}, {"writers", topic.writers}, {"readers", names_of(topic.readers)}};
   }
-  return json.dump() + "\n";
+  return json_text(json) + "\n";
 }
 
 /// Writes the components of each process between `open(process)` and `close`; without them when

@@ -12,6 +12,7 @@
 #include "armature/runtime/deployment_file/completed_file.hpp"
 #include "armature/runtime/deployment_file/component_config.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "inspect/graph_drawing.hpp"
 #include "inspect/leases.hpp"
@@ -52,7 +53,7 @@ std::string on_fault_comment(const DeploymentConfig& deployment) {
 
 void print_tree(const config::Node& tree, bool json) {
   if (json) {
-    fmt::print("{}\n", with_origins(tree).dump(-1, ' ', false, Json::error_handler_t::replace));
+    fmt::print("{}\n", json_text(with_origins(tree)));
   } else {
     fmt::print("{}", config::to_yaml(tree, true));
   }

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 
 namespace armature {
@@ -186,7 +187,7 @@ int list_plugins(bool json) {
     for (const auto& [file, reason] : plugins.unusable()) {
       all["unusable"].push_back({{"file", file.string()}, {"reason", reason}});
     }
-    fmt::print("{}\n", all.dump());
+    fmt::print("{}\n", json_text(all));
     return kOk;
   }
   for (const auto& plugin : plugins.plugins()) {
@@ -208,7 +209,7 @@ int show_plugin(const std::string& id, bool json) {
   if (json) {
     Json told = manifest_json(*plugin);
     if (host) told["alone"] = host_json(*host);
-    fmt::print("{}\n", told.dump());
+    fmt::print("{}\n", json_text(told));
     return kOk;
   }
   fmt::print("{} ({})\n  {}\n  {}\n", plugin->id, plugin->kind, plugin->doc, plugin->file.string());

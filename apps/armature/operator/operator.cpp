@@ -21,6 +21,7 @@
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/task/procedure.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "operator/procedure_view.hpp"
 #include "operator/task_link.hpp"
@@ -116,7 +117,7 @@ class Dialogue {
     const std::string summary = summary_of(*state);
     if (summary == shown_) return;
     shown_ = summary;
-    fmt::print("{}\n", options_.json ? json_of(*state).dump() : table_of(*state));
+    fmt::print("{}\n", options_.json ? json_text(json_of(*state)) : table_of(*state));
     if (const std::string asks = step_that_asks(*state); !asks.empty() && !options_.json) {
       fmt::print("c(onfirm) '{}', p(ause), b(ack), a(bort)?\n", terminal_text(asks));
     }

@@ -10,6 +10,7 @@
 
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_summary.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "record/record.hpp"
 #include "record/recorded_processes.hpp"
@@ -26,9 +27,7 @@ std::string shown(std::string name) {
   return name;
 }
 
-std::string text_of(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
+std::string text_of(const Json& json) { return json_text(json); }
 
 /// What was recorded twice, by the process that wrote it and by one that read it, counts once.
 struct TopicCount {

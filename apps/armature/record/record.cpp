@@ -12,6 +12,7 @@
 #include "armature/bus/topic_name.hpp"
 #include "armature/config/problems.hpp"
 #include "armature/runtime/deployment_file/record_config.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "record/recorder.hpp"
 
@@ -123,14 +124,13 @@ int record_topics(const RecordOptions& options) {
     std::uint64_t dropped = 0, lost = 0;
     for (const auto& [topic, count] : recorder.dropped()) dropped += count;
     for (const auto& [topic, count] : recorder.lost()) lost += count;
-    fmt::print("{}\n", Json{{"file", options.out.string()},
-                            {"topics", recorder.topics()},
-                            {"messages", recorder.messages()},
-                            {"bytes", recorder.bytes()},
-                            {"dropped", dropped},
-                            {"lost", lost},
-                            {"head", recorder.head()}}
-                           .dump());
+    fmt::print("{}\n", json_text(Json{{"file", options.out.string()},
+                                      {"topics", recorder.topics()},
+                                      {"messages", recorder.messages()},
+                                      {"bytes", recorder.bytes()},
+                                      {"dropped", dropped},
+                                      {"lost", lost},
+                                      {"head", recorder.head()}}));
   } else {
     fmt::print("{}: {} messages of {} topics, {}\n", options.out.string(), recorder.messages(),
                recorder.topics(), megabytes(recorder.bytes()));

@@ -13,6 +13,7 @@
 #include "armature/messages/known_types.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "record/recorded_processes.hpp"
 #include "replay/exchanged_samples.hpp"
@@ -272,7 +273,7 @@ void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals&
       json["components"].push_back(json_of(*check, name, entry));
     }
   }
-  fmt::print("{}\n", json.dump());
+  fmt::print("{}\n", json_text(json));
 }
 
 void print(const ExchangedSamples& exchanged) {

@@ -13,6 +13,7 @@
 #include "armature/config/document.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "record/recorded_processes.hpp"
 #include "replay/field_differences.hpp"
@@ -373,7 +374,7 @@ int compare_with_recording(const ReplayOptions& options) {
     }
   }
   if (!any) throw InvalidChoice("the assignments change no component of the recording");
-  if (options.json) fmt::print("{}\n", json.dump());
+  if (options.json) fmt::print("{}\n", json_text(json));
   return kOk;
 }
 

@@ -8,6 +8,7 @@
 
 #include "armature/messages/cdr_to_json.hpp"
 #include "armature/messages/known_types.hpp"
+#include "armature/values/json_text.hpp"
 
 namespace armature {
 
@@ -61,8 +62,8 @@ void TopicDifferences::add(const std::string& name, const Json& before, const Js
     field.at_s = at_s;
   } else if (is_new) {
     field.at_s = at_s;
-    field.before = before.dump(-1, ' ', false, Json::error_handler_t::replace);
-    field.now = now.dump(-1, ' ', false, Json::error_handler_t::replace);
+    field.before = json_text(before);
+    field.now = json_text(now);
   }
 }
 

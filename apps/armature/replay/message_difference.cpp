@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/messages/cdr_to_json.hpp"
+#include "armature/values/json_text.hpp"
 
 namespace armature {
 namespace {
@@ -32,10 +33,6 @@ std::optional<MessageDifference> number_difference(const Json& a, const Json& b)
                            .recorded = fmt::format("{}", a.get<Number>()),
                            .replayed = fmt::format("{}", b.get<Number>()),
                            .ulps = first > second ? first - second : second - first};
-}
-
-std::string json_text(const Json& value) {
-  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::optional<MessageDifference> structure_difference(const TypeDescription& type, const Json& a,

@@ -20,6 +20,7 @@
 #include "armature/recording/mcap_summary.hpp"
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "record/recorded_processes.hpp"
 #include "replay/recorded_qos.hpp"
@@ -168,10 +169,9 @@ int publish_recording(const PublishOptions& options) {
     fmt::print(stderr, "armature: '{}' has no messages to be published\n", options.file.string());
   }
   if (options.json) {
-    fmt::print("{}\n", nlohmann::ordered_json{{"messages", player.messages()},
-                                              {"topics", player.topics()},
-                                              {"prefix", options.prefix}}
-                           .dump());
+    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"messages", player.messages()},
+                                                        {"topics", player.topics()},
+                                                        {"prefix", options.prefix}}));
   } else {
     fmt::print("{} messages of {} topics under {}\n", player.messages(), player.topics(),
                options.prefix);

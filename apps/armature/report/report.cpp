@@ -31,6 +31,7 @@
 #include "armature/runtime/recording/page_rate.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "jpeg_encoder.hpp"
 #include "record/message_copy.hpp"
@@ -347,9 +348,7 @@ WrittenReport write_report(const ReportOptions& options) {
               fmt::format("<script type=\"application/octet-stream;base64\" id=\"recording\" "
                           "data-name=\"{}\" data-told=\"{}\" data-figures=\"{}\">{}</script>\n",
                           escaped(options.recording.filename().string()),
-                          escaped(provenance(options, contents, kept)
-                                      .dump(-1, ' ', false,
-                                            nlohmann::ordered_json::error_handler_t::replace)),
+                          escaped(json_text(provenance(options, contents, kept))),
                           escaped(contents.figures), base64(kept.bytes)));
   write_atomically(options.out, page, options.use);
   return {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/json_text.hpp"
 
 namespace armature {
 
@@ -19,7 +20,7 @@ std::string ending(std::string_view status, const std::string& reason) {
   nlohmann::ordered_json json{{"status", status}};
   if (!reason.empty()) json["reason"] = reason;
   // What is wrong may quote a file that is no UTF-8.
-  return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + '\n';
+  return json_text(json) + '\n';
 }
 
 void write_ending(const std::filesystem::path& folder, const std::string& ending) {

@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "record/merge.hpp"
 #include "record/record.hpp"
@@ -134,7 +135,7 @@ void record_for_page(DeploymentConfig& config, RunOptions& options) {
     remove_older(config.record->file_of(process, Time{}));
   }
   const nlohmann::json record{{"file", file}, {"thin", true}};
-  options.source.assignments.push_back("record=" + record.dump());
+  options.source.assignments.push_back("record=" + json_text(record));
 }
 
 bool joined(const std::filesystem::path& recording, const DeploymentConfig& config,

@@ -13,6 +13,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "armature/values/json_text.hpp"
+
 namespace armature::sweep {
 
 using Json = nlohmann::ordered_json;
@@ -70,7 +72,7 @@ void FinishedRuns::add(const RunKey& key, Json report) {
   const std::string status = report.value("status", "");
   if (file_ && status != kCrashed && status != kTimedOut) {
     const Json line{{"fingerprint", key.fingerprint}, {"seed", key.seed}, {"report", report}};
-    const std::string text = line.dump() + '\n';
+    const std::string text = json_text(line) + '\n';
     if (write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
       throw std::runtime_error(
           fmt::format("cannot write {}: {}", file_->string(), std::strerror(errno)));

@@ -7,6 +7,8 @@
 #include <system_error>
 
 #include "armature/bus/network.hpp"
+#include "armature/values/utf8.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -65,6 +67,10 @@ std::string no_file(const std::string& text) {
   return text == "-" ? "is written into a file only, not to standard output; for a file of that "
                        "name say ./-"
                      : "";
+}
+
+std::string no_text(const std::string& text) {
+  return is_utf8(text) ? "" : "'" + terminal_text(text) + "' is not UTF-8, as text on topics is";
 }
 
 std::string no_hash(const std::string& text) {

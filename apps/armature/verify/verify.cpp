@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/values/json_text.hpp"
 #include "colour.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
@@ -96,7 +97,7 @@ class Verification {
     using Clock = std::chrono::steady_clock;
     laws_.forget_question();
     const auto start = Clock::now();
-    const Isolated done = isolated(timeout_s_, [&] { return check().dump(); });
+    const Isolated done = isolated(timeout_s_, [&] { return json_text(check()); });
     Json law{{"law", says}};
     law["result"] = "pass";
     law["violations"] = Json::array();
@@ -190,7 +191,7 @@ int verify_plugin(const VerifyOptions& options) {
     all["robots"].push_back(robot);
   }
   all["ok"] = ok = ok && served > 0;
-  if (options.json) fmt::print("{}\n", all.dump());
+  if (options.json) fmt::print("{}\n", json_text(all));
   if (served == 0) {
     fmt::print(stderr, "armature: {} {}\n", plugin->id,
                is_made_for_robot(*plugin) ? "serves none of these robots" : "cannot be made");

@@ -15,6 +15,7 @@
 #include "armature/config/problems.hpp"
 #include "armature/messages/rcl_interfaces.hpp"
 #include "armature/messages/stamp.hpp"
+#include "armature/values/json_text.hpp"
 #include "colour.hpp"
 #include "exit_code.hpp"
 
@@ -52,9 +53,8 @@ void print(const msg::Log& line, bool json) {
   const Time at = stamp_of(line.stamp_());
   const std::string_view level = name_of(line.level_());
   if (json) {
-    tell(nlohmann::ordered_json{
-        {"stamp_ns", at.ns}, {"level", level}, {"name", line.name_()}, {"text", line.msg_()}}
-             .dump());
+    tell(json_text(nlohmann::ordered_json{
+        {"stamp_ns", at.ns}, {"level", level}, {"name", line.name_()}, {"text", line.msg_()}}));
     return;
   }
   const std::string text =

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string_view>
 
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "watch/seen_deployments.hpp"
 #include "watch/top_screen.hpp"
@@ -220,7 +221,7 @@ int print_tables(SeenDeployments& seen, const TopOptions& options) {
     if (!wait_for(i == 0 ? Duration{0} : seconds(options.interval_s))) break;
     seen.look();
     if (options.json) {
-      tell(top_json(seen.all(), monotonic_now()).dump());
+      tell(json_text(top_json(seen.all(), monotonic_now())));
       continue;
     }
     const TopTable table = top_table(seen.all(), {}, monotonic_now());

@@ -9,6 +9,7 @@
 #include "armature/messages/cdr_reader.hpp"
 #include "armature/messages/known_types.hpp"
 #include "armature/runtime/execution/clock.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "watch/sample_count.hpp"
 #include "watch/topic_meter.hpp"
@@ -90,7 +91,7 @@ void print(const TopicFigures& figures, TopicMeasure what, std::string_view over
   if (enough) describe(figures, what, all ? " in all" : "", text, line);
   if (figures.lost > 0) text += fmt::format(", {} lost", figures.lost);
   line["lost"] = figures.lost;
-  tell(json ? line.dump() : text);
+  tell(json ? json_text(line) : text);
 }
 
 }  // namespace

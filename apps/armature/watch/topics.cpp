@@ -10,6 +10,7 @@
 #include "armature/bus/topic_name.hpp"
 #include "armature/messages/cdr_to_json.hpp"
 #include "armature/messages/known_types.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "readable_json.hpp"
 #include "watch/sample_count.hpp"
@@ -87,7 +88,7 @@ int list_topics(const TopicOptions& options) {
                        topic.types.size() > 1 ? "   CONFLICT: two types on one topic" : ""));
     }
   }
-  if (options.json) tell(json.dump());
+  if (options.json) tell(json_text(json));
   return kOk;
 }
 
@@ -118,7 +119,7 @@ int describe_topic(const TopicOptions& options) {
                                  {"owner", endpoint.owner}});
   }
   text.pop_back();
-  tell(options.json ? json.dump() : text);
+  tell(options.json ? json_text(json) : text);
   return kOk;
 }
 
@@ -140,7 +141,7 @@ int echo_topic(const TopicOptions& options) {
       if (!json) {
         fmt::print(stderr, "armature: not a {}: {}\n", type->ros_name, json.error().text);
       } else {
-        tell(options.json ? json->dump() : readable(*json) + "\n---");
+        tell(options.json ? json_text(*json) : readable(*json) + "\n---");
       }
     }
     count.add();

@@ -16,6 +16,7 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 #include "workspace/workspace_points.hpp"
@@ -173,7 +174,7 @@ void print(const nlohmann::ordered_json& told) {
     } else if (value.is_number_float()) {
       fmt::print("  {:<14} {:.4f}\n", key, value.get<double>());
     } else {
-      fmt::print("  {:<14} {}\n", key, value.dump());
+      fmt::print("  {:<14} {}\n", key, json_text(value));
     }
   }
 }
@@ -189,7 +190,7 @@ int run_workspace(const WorkspaceOptions& options) {
                                      : free_workspace(robot, options.samples, options.seed);
   const auto told = figures_of(workspace, centre, options);
   if (options.json) {
-    fmt::print("{}\n", told.dump());
+    fmt::print("{}\n", json_text(told));
   } else {
     print(told);
   }

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "armature/values/json_text.hpp"
 #include "armature/web/foxglove_messages.hpp"
 
 namespace armature {
@@ -19,7 +20,7 @@ constexpr std::string_view kWithPlayback = "foxglove.sdk.v1";
 enum Level { kWarning = 1, kError = 2 };
 
 std::string status(Level level, const std::string& text) {
-  return Json{{"op", "status"}, {"level", level}, {"message", text}}.dump();
+  return json_text(Json{{"op", "status"}, {"level", level}, {"message", text}});
 }
 
 /// A time as it stands in JSON, where numbers have 53 bits.
@@ -97,7 +98,7 @@ void FoxgloveBridge::opened(Client client, std::string_view protocol) {
     info["dataStartTime"] = json_of(playback->first());
     info["dataEndTime"] = json_of(playback->last());
   }
-  server_.send(client, info.dump());
+  server_.send(client, json_text(info));
   std::vector<const Channel*> all;
   for (const auto& [id, channel] : channels_) {
     if (channel.is_there) all.push_back(&channel);
@@ -215,7 +216,7 @@ void FoxgloveBridge::look() {
   }
   for (const auto& [client, subscriber] : clients_) {
     if (!gone.empty()) {
-      server_.send(client, Json{{"op", "unadvertise"}, {"channelIds", gone}}.dump());
+      server_.send(client, json_text(Json{{"op", "unadvertise"}, {"channelIds", gone}}));
     }
     advertise(came, client);
   }
@@ -233,7 +234,7 @@ void FoxgloveBridge::advertise(const std::vector<const Channel*>& channels, Clie
                     {"schema", schema.text},
                     {"schemaEncoding", "ros2msg"}});
   }
-  server_.send(client, Json{{"op", "advertise"}, {"channels", list}}.dump());
+  server_.send(client, json_text(Json{{"op", "advertise"}, {"channels", list}}));
 }
 
 void FoxgloveBridge::watch(Channel& channel) {

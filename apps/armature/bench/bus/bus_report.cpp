@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "armature/values/json_text.hpp"
 #include "bench/statistics.hpp"
 
 namespace armature::bench {
@@ -117,7 +118,7 @@ std::string to_json(const BusReport& report) {
   json["picture_goal"] = kMaxPictureRatio;
   json["met"] = is_met(report);
   json["machine"] = to_json(report.machine);
-  return json.dump();
+  return json_text(json);
 }
 
 }  // namespace armature::bench

@@ -13,6 +13,7 @@
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/reporting/output_folder.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/json_text.hpp"
 #include "bench/contestants.hpp"
 #include "bench/ik/report.hpp"
 #include "exit_code.hpp"
@@ -61,7 +62,7 @@ void write_files(const std::filesystem::path& folder, const Report& report,
   constexpr FileUse kUse = FileUse::named_by_user;
   write_atomically(folder / "solves.csv", bench::csv_of(series), kUse);
   write_atomically(folder / "cumulative.svg", bench::plot_of(report, series), kUse);
-  write_atomically(folder / "summary.json", to_json(report).dump(2) + '\n', kUse);
+  write_atomically(folder / "summary.json", json_text(to_json(report), 2) + '\n', kUse);
 }
 
 }  // namespace
@@ -95,7 +96,7 @@ int bench_ik(const BenchOptions& options) {
     series = bench::measure(*model, runners, poses, how);
     report.rows = bench::rows_of(series, report.baseline, options.seed);
   }
-  fmt::print("{}", options.json ? to_json(report).dump() + "\n" : table(report));
+  fmt::print("{}", options.json ? json_text(to_json(report)) + "\n" : table(report));
   std::fflush(stdout);  // also when the files cannot be written
   if (options.out && !series.empty()) write_files(*options.out, report, series);
   if (runners.empty()) fmt::print(stderr, "armature: no solver serves this robot\n");

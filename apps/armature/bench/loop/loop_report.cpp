@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/json_text.hpp"
 #include "bench/statistics.hpp"
 
 namespace armature::bench {
@@ -144,7 +145,7 @@ std::string to_json(const LoopReport& report) {
                                 {"met", is_met(watched, noise)},
                                 {"rounds", to_json(watched.rounds)}});
   }
-  return json.dump();
+  return json_text(json);
 }
 
 }  // namespace armature::bench

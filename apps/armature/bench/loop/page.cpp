@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "armature/values/json_text.hpp"
 #include "armature/web/web_socket.hpp"
 #include "exit_code.hpp"
 
@@ -21,7 +22,7 @@ int read_as_a_page(int port) {
       wanted.push_back({{"id", channel["id"]}, {"channelId", channel["id"]}});
     }
     monitor.send_text(
-        nlohmann::json{{"op", "subscribe"}, {"subscriptions", std::move(wanted)}}.dump());
+        json_text(nlohmann::json{{"op", "subscribe"}, {"subscriptions", std::move(wanted)}}));
   }
   return kOk;
 }

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "armature/values/json_text.hpp"
 #include "bench/statistics.hpp"
 #include "csv_field.hpp"
 
@@ -171,7 +172,7 @@ std::string to_json(const PerceptionReport& report) {
     }
     json["stages"].push_back(line);
   }
-  return json.dump();
+  return json_text(json);
 }
 
 std::string csv_of(const std::vector<PairResult>& results) {

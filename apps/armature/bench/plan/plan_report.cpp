@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "armature/values/json_text.hpp"
+
 namespace armature::bench {
 namespace {
 
@@ -92,7 +94,7 @@ std::string to_json(const PlanReport& report) {
   for (const auto& [plugin, reason] : report.refused) {
     json["refused"].push_back({{"plugin", plugin}, {"reason", reason}});
   }
-  return json.dump();
+  return json_text(json);
 }
 
 }  // namespace armature::bench

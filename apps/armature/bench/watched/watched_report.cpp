@@ -9,6 +9,7 @@
 #include <numeric>
 #include <utility>
 
+#include "armature/values/json_text.hpp"
 #include "bench/statistics.hpp"
 
 namespace armature::bench {
@@ -120,7 +121,7 @@ std::string to_json(const WatchedReport& report) {
   }
   json["met"] = is_met(report);
   json["machine"] = to_json(report.machine);
-  return json.dump();
+  return json_text(json);
 }
 
 }  // namespace armature::bench

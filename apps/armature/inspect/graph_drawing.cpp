@@ -10,6 +10,7 @@
 #include <set>
 
 #include "armature/values/json_text.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -27,15 +28,18 @@ std::vector<std::string> names_of(const std::vector<Reader>& readers) {
 std::string text_of(const DrawnGraph& graph) {
   const auto list = [](const std::vector<std::string>& names) {
     std::string text;
-    for (const auto& name : names) text += (text.empty() ? "" : ", ") + name;
+    for (const auto& name : names) {
+      text += (text.empty() ? "" : ", ") + terminal_text(name);
+    }
     return text.empty() ? std::string{"-"} : text;
   };
   std::size_t width = 0;
   for (const auto& [name, topic] : graph.topics) width = std::max(width, name.size());
   std::string text;
   for (const auto& [name, topic] : graph.topics) {
-    text += fmt::format("{:<{}}  {:<32} {} -> {}\n", name, width, topic.type, list(topic.writers),
-                        list(names_of(topic.readers)));
+    text +=
+        fmt::format("{:<{}}  {:<32} {} -> {}\n", terminal_text(name), width,
+                    terminal_text(topic.type), list(topic.writers), list(names_of(topic.readers)));
   }
   return text;
 }

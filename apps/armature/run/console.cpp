@@ -4,7 +4,10 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
+
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -26,9 +29,19 @@ void Console::line(std::string_view who, std::string_view text) {
   const Clock* clock = clock_.load(std::memory_order_acquire);
   const double time = clock ? to_seconds(clock->now() - start_) : 0.0;
   std::array<char, LineWriter::kMaxLine> line;  // NOLINT: filled by what follows
-  const auto end =
-      fmt::format_to_n(line.data(), line.size(), "[{:7.3f} s] {:<9} {}", time, who, text);
-  lines_.put({line.data(), static_cast<std::size_t>(end.out - line.data())});
+  char* const end = line.data() + line.size();
+  char* at = fmt::format_to_n(line.data(), line.size(), "[{:7.3f} s] {:<9} ", time, who).out;
+  const std::size_t indent = static_cast<std::size_t>(at - line.data());
+  for_each_shown(text, [&](std::string_view piece) {
+    if (piece != "\\x0a") {
+      at =
+          std::copy_n(piece.data(), std::min(piece.size(), static_cast<std::size_t>(end - at)), at);
+      return;
+    }
+    if (at < end) *at++ = '\n';
+    at = std::fill_n(at, std::min(indent, static_cast<std::size_t>(end - at)), ' ');
+  });
+  lines_.put({line.data(), static_cast<std::size_t>(at - line.data())});
 }
 
 void Console::tell(std::string_view text) { lines_.put(fmt::format("armature: {}", text)); }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "exit_code.hpp"
+#include "terminal_text.hpp"
 #include "watch/seen_deployments.hpp"
 
 namespace armature {
@@ -44,11 +45,11 @@ DrawnGraph graph_of(const std::string& name, const SeenDeployment& deployment) {
 std::string incomplete(const std::map<std::string, SeenDeployment>& all) {
   for (const auto& [name, deployment] : all) {
     if (deployment.processes.empty()) {
-      return fmt::format("deployment '{}' has not told what it consists of", name);
+      return fmt::format("deployment '{}' has not told what it consists of", terminal_text(name));
     }
     if (!deployment.is_whole()) {
-      return fmt::format("deployment '{}': nothing was heard of process '{}'", name,
-                         fmt::join(deployment.missing(), "', '"));
+      return terminal_text(fmt::format("deployment '{}': nothing was heard of process '{}'", name,
+                                       fmt::join(deployment.missing(), "', '")));
     }
   }
   return "";

@@ -18,6 +18,7 @@
 #include "armature/values/json_text.hpp"
 #include "colour.hpp"
 #include "exit_code.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -49,16 +50,35 @@ std::string time_text(Time time) {
   return fmt::format("{:%H:%M:%S}.{:03}", local, time.ns % kSecond / 1'000'000);
 }
 
-void print(const msg::Log& line, bool json) {
+/// A line, and who has written it.
+struct WrittenLine {
+  msg::Log log;
+  std::string stranger = {};  // whoever says it in a name that is not his deployment's; else ""
+};
+
+WrittenLine written(const msg::Log& log, const ObservedEndpoint* writer) {
+  const std::string& name = log.name_();
+  const bool own =
+      !writer || (!writer->deployment.empty() &&
+                  (name == writer->deployment || name.starts_with(writer->deployment + ".")));
+  return {.log = log, .stranger = own ? "" : writer->owner};
+}
+
+void print(const WrittenLine& written, bool json) {
+  const msg::Log& line = written.log;
   const Time at = stamp_of(line.stamp_());
   const std::string_view level = name_of(line.level_());
   if (json) {
-    tell(json_text(nlohmann::ordered_json{
-        {"stamp_ns", at.ns}, {"level", level}, {"name", line.name_()}, {"text", line.msg_()}}));
-    return;
+    nlohmann::ordered_json told{
+        {"stamp_ns", at.ns}, {"level", level}, {"name", line.name_()}, {"text", line.msg_()}};
+    if (!written.stranger.empty()) told["writer"] = written.stranger;
+    return tell(json_text(told));
   }
-  const std::string text =
-      fmt::format("{} {:<7} {}: {}", time_text(at), level, line.name_(), line.msg_());
+  std::string text = fmt::format("{} {:<7} {}", time_text(at), level, terminal_text(line.name_()));
+  if (!written.stranger.empty()) text += " of " + terminal_text(written.stranger);
+  text += ": ";
+  constexpr std::size_t kIndent = 21;  // behind time and level
+  text += terminal_lines(line.msg_(), kIndent);
   if (line.level_() < level_named("warning")) return tell(text);
   tell(coloured(text, line.level_() < level_named("error") ? Tone::doubtful : Tone::bad, stdout));
 }
@@ -69,16 +89,17 @@ class Lines {
  public:
   explicit Lines(const LogOptions& options) : options_{options} {}
 
-  void add(const msg::Log& line) {
+  void add(const WrittenLine& written) {
+    const msg::Log& line = written.log;
     const bool wanted = line.level_() >= level_named(options_.level) &&
                         (options_.component.empty() || line.name_() == options_.component ||
                          line.name_().ends_with("." + options_.component));
     if (!wanted) return;
     const std::scoped_lock lock{mutex_};
     if (keeps_) {
-      kept_.push_back(line);
+      kept_.push_back(written);
     } else {
-      print(line, options_.json);
+      print(written, options_.json);
     }
   }
   /// How many have been printed.
@@ -90,8 +111,8 @@ class Lines {
     const std::scoped_lock lock{mutex_};
     keeps_ = false;
     std::ranges::stable_sort(kept_, {},
-                             [](const msg::Log& line) { return stamp_of(line.stamp_()); });
-    for (const msg::Log& line : kept_) print(line, options_.json);
+                             [](const WrittenLine& line) { return stamp_of(line.log.stamp_()); });
+    for (const WrittenLine& line : kept_) print(line, options_.json);
     told_ += kept_.size();
     kept_.clear();
   }
@@ -101,7 +122,7 @@ class Lines {
   std::mutex mutex_;
   bool keeps_ = true;
   std::size_t told_ = 0;
-  std::vector<msg::Log> kept_;
+  std::vector<WrittenLine> kept_;
 };
 
 }  // namespace
@@ -112,7 +133,7 @@ int print_log(const LogOptions& options) {
   Lines lines{options};
   Outsider outsider{options};  // goes before what its callback uses
   const int watching = outsider.watch("/rosout", [&](const ObservedSample& sample) {
-    if (const auto line = decoded<msg::Log>(sample)) lines.add(*line);
+    if (const auto line = decoded<msg::Log>(sample)) lines.add(written(*line, sample.writer));
   });
   if (watching != kOk || left()) return watching;
   wait_for(kDiscovery);

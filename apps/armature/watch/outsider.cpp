@@ -19,6 +19,7 @@
 #include "armature/runtime/plugins/described_messages.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -89,7 +90,7 @@ std::string Outsider::no_topics() const {
 std::string Outsider::topics_there(const std::string& topic) {
   std::vector<std::string> names;
   for (const auto& there : observer_->topics()) {
-    if (there.writers > 0) names.push_back(ros_topic_name(there.name));
+    if (there.writers > 0) names.push_back(terminal_text(ros_topic_name(there.name)));
   }
   if (names.empty()) return "; " + no_topics();
   const std::string hint = config::did_you_mean(topic, names);

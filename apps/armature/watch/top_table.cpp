@@ -10,6 +10,8 @@
 #include <string_view>
 #include <utility>
 
+#include "terminal_text.hpp"
+
 namespace armature {
 namespace {
 
@@ -208,6 +210,8 @@ TopTable top_table(const std::map<std::string, SeenDeployment>& seen, const TopV
       if (!row.reason.empty()) table.lines.push_back({"      " + row.reason, row.tone});
     }
   }
+  // Names and reasons are what others wrote, who need not be a deployment.
+  for (TopLine& line : table.lines) line.text = terminal_text(line.text);
   return table;
 }
 

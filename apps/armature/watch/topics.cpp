@@ -13,6 +13,7 @@
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "readable_json.hpp"
+#include "terminal_text.hpp"
 #include "watch/sample_count.hpp"
 
 namespace armature {
@@ -82,9 +83,9 @@ int list_topics(const TopicOptions& options) {
     if (options.json) {
       json.push_back(json_of(topic));
     } else {
-      tell(fmt::format("{:<{}} {:<32} {}, {} in other processes{}", ros_topic_name(topic.name),
-                       width, ros_types(topic), counted(topic.writers, "writer"),
-                       counted(topic.readers, "reader"),
+      tell(fmt::format("{:<{}} {:<32} {}, {} in other processes{}",
+                       terminal_text(ros_topic_name(topic.name)), width, ros_types(topic),
+                       counted(topic.writers, "writer"), counted(topic.readers, "reader"),
                        topic.types.size() > 1 ? "   CONFLICT: two types on one topic" : ""));
     }
   }
@@ -104,7 +105,8 @@ int describe_topic(const TopicOptions& options) {
   }
   Json json = json_of(*topic);
   json["endpoints"] = Json::array();
-  std::string text = fmt::format("{}  {}\n", ros_topic_name(topic->name), ros_types(*topic));
+  std::string text =
+      fmt::format("{}  {}\n", terminal_text(ros_topic_name(topic->name)), ros_types(*topic));
   for (const ObservedEndpoint& endpoint : topic->endpoints) {
     const char* does = endpoint.writes ? "writes" : "reads";
     const char* reliability = endpoint.reliable ? "reliable" : "best effort";
@@ -141,7 +143,7 @@ int echo_topic(const TopicOptions& options) {
       if (!json) {
         fmt::print(stderr, "armature: not a {}: {}\n", type->ros_name, json.error().text);
       } else {
-        tell(options.json ? json_text(*json) : readable(*json) + "\n---");
+        tell(options.json ? json_text(*json) : terminal_lines(readable(*json), 0) + "\n---");
       }
     }
     count.add();

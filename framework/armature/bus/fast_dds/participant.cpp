@@ -291,6 +291,7 @@ class Participant::Listener final : public dds::DomainParticipantListener {
     endpoint.transient_local = data.m_qos.m_durability.kind != dds::VOLATILE_DURABILITY_QOS;
     endpoint.tag = parse_endpoint_tag(data.m_qos.m_userData.data_vec());
     endpoint.tag.deployment = printable(endpoint.tag.deployment);
+    endpoint.tag.fingerprint = printable(endpoint.tag.fingerprint);
     discovery().endpoint_found(std::move(endpoint));
   }
 

@@ -134,8 +134,7 @@ TEST_F(SimulatedArmComponentTest, SaysWhatACommandAsksBeyondTheLimits) {
   arm_.send("servo_jp", command(q, still_));
   step();
   EXPECT_EQ(arm_.status().state, StatusReporter::State::degraded);
-  EXPECT_EQ(arm_.status().reason,
-            "the command asks joint j1 for velocity 500 rad/s, limit 2.5");
+  EXPECT_EQ(arm_.status().reason, "the command asks joint j1 for velocity 500 rad/s, limit 2.5");
   EXPECT_LT(std::abs(measured()[0] - home_[0]), 1e-4);
   const auto told = arm_.lines().size();
   for (int i = 0; i < 1000; ++i) {
@@ -188,8 +187,7 @@ TEST_F(SimulatedArmComponentTest, ARefusedCommandIsTheTroubleThatIsToldFirst) {
   q[0] += 0.5;
   arm_.send("servo_jp", command(q, still_));
   step();
-  ASSERT_EQ(arm_.status().reason,
-            "the command asks joint j1 for velocity 500 rad/s, limit 2.5");
+  ASSERT_EQ(arm_.status().reason, "the command asks joint j1 for velocity 500 rad/s, limit 2.5");
   msg::JointState bad = command(q, still_);
   bad.velocity_().pop_back();
   arm_.send("servo_jp", bad);

@@ -98,8 +98,8 @@ PluginId id_from(const std::string& text) {
                   text));
 }
 
-/// What stands for the marks of a template: each @MARK@ and its text. `source`: of the plugin, with
-/// its marks.
+/// The texts that take the place of a template's marks, by @MARK@. `source`: the plugin's file of
+/// the template.
 class Marks {
  public:
   Marks(const PluginId& id, std::string_view source)

@@ -29,7 +29,7 @@ std::string shown(std::string name) {
 
 std::string text_of(const Json& json) { return json_text(json); }
 
-/// What was recorded twice, by the process that wrote it and by one that read it, counts once.
+/// A message that was recorded twice, by its writer's process and by a reader's, counts once.
 struct TopicCount {
   std::string type;
   std::uint64_t messages = 0, doubled = 0;

@@ -62,7 +62,7 @@ class Part {
     copy_.write(*next_);
     step();
   }
-  /// What is to be known of the part with the recording of `process`, after the last message.
+  /// The metadata of the part that `process` has recorded, complete after its last message.
   McapMetadata metadata_of(const std::string& process) const {
     const McapChain chain = reader_.chain();
     return {.name = std::string{kPartMetadata},

@@ -248,7 +248,7 @@ Json json_of(const Check& check, const std::string& name, const ReplayedProcess:
 
 void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals& totals,
                 double took_s) {
-  // Of what could not be compared nobody knows: null is not true for whoever reads no more.
+  // A recording that was not all compared is not known to be identical: null, which is not true.
   const Json identical =
       totals.differing == 0 && !totals.is_complete ? Json{} : Json(totals.differing == 0);
   Json json{{"identical", identical},
@@ -279,9 +279,8 @@ void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals&
 void print(const ExchangedSamples& exchanged) {
   if (exchanged.compared > 0) {
     fmt::print(
-        "{} samples that processes read of each other are as they were written, {} of them found "
-        "by "
-        "their writer's number\n",
+        "{} samples that processes read of each other are as they were written, {} of them "
+        "found by their writer's number\n",
         with_commas(exchanged.compared), with_commas(exchanged.numbered));
   }
   if (!exchanged.first) return;

@@ -27,7 +27,8 @@ std::string process_of(const McapChannel& channel) {
   return process == channel.metadata.end() ? std::string{} : process->second;
 }
 
-/// What one writer has recorded: where in its order each content stands, and each number's content.
+/// The samples of one writer: the places of each content in their order, and the content of each
+/// number.
 struct Written {
   std::uint64_t count = 0;
   std::unordered_map<std::size_t, std::vector<std::uint64_t>> places;  // by hash, ascending

@@ -2,115 +2,27 @@
 #include "armature/config/parameters/cpp_name.hpp"
 
 #include <algorithm>
-#include <array>
 #include <functional>
 
 namespace armature {
 namespace {
 
-constexpr std::array<std::string_view, 98> kKeywords{"alignas",
-                                                     "alignof",
-                                                     "and",
-                                                     "and_eq",
-                                                     "asm",
-                                                     "auto",
-                                                     "bitand",
-                                                     "bitor",
-                                                     "bool",
-                                                     "break",
-                                                     "case",
-                                                     "catch",
-                                                     "char",
-                                                     "char16_t",
-                                                     "char32_t",
-                                                     "char8_t",
-                                                     "class",
-                                                     "co_await",
-                                                     "co_return",
-                                                     "co_yield",
-                                                     "compl",
-                                                     "concept",
-                                                     "const",
-                                                     "const_cast",
-                                                     "consteval",
-                                                     "constexpr",
-                                                     "constinit",
-                                                     "continue",
-                                                     "decltype",
-                                                     "default",
-                                                     "delete",
-                                                     "do",
-                                                     "double",
-                                                     "dynamic_cast",
-                                                     "else",
-                                                     "enum",
-                                                     "explicit",
-                                                     "export",
-                                                     "extern",
-                                                     "false",
-                                                     "float",
-                                                     "for",
-                                                     "friend",
-                                                     "goto",
-                                                     "if",
-                                                     "inline",
-                                                     "int",
-                                                     "long",
-                                                     "mutable",
-                                                     "namespace",
-                                                     "new",
-                                                     "noexcept",
-                                                     "not",
-                                                     "not_eq",
-                                                     "nullptr",
-                                                     "operator",
-                                                     "or",
-                                                     "or_eq",
-                                                     "private",
-                                                     "protected",
-                                                     "public",
-                                                     "read",
-                                                     "register",
-                                                     "reinterpret_cast",
-                                                     "requires",
-                                                     "return",
-                                                     "short",
-                                                     "signed",
-                                                     "sizeof",
-                                                     "static",
-                                                     "static_assert",
-                                                     "static_cast",
-                                                     "struct",
-                                                     "switch",
-                                                     "template",
-                                                     "this",
-                                                     "thread_local",
-                                                     "throw",
-                                                     "true",
-                                                     "try",
-                                                     "typedef",
-                                                     "typeid",
-                                                     "typename",
-                                                     "union",
-                                                     "unsigned",
-                                                     "using",
-                                                     "virtual",
-                                                     "void",
-                                                     "volatile",
-                                                     "wchar_t",
-                                                     "while",
-                                                     "xor",
-                                                     "xor_eq",
-                                                     "std",
-                                                     "armature",
-                                                     "params",
-                                                     "fmt",
-                                                     "tl"};
+/// A space on either side of each.
+constexpr std::string_view kTaken =
+    " alignas alignof and and_eq asm auto bitand bitor bool break case catch char "
+    "char16_t char32_t char8_t class co_await co_return co_yield compl concept const "
+    "const_cast consteval constexpr constinit continue decltype default delete do double "
+    "dynamic_cast else enum explicit export extern false float for friend goto if inline "
+    "int long mutable namespace new noexcept not not_eq nullptr operator or or_eq "
+    "private protected public read register reinterpret_cast requires return short "
+    "signed sizeof static static_assert static_cast struct switch template this "
+    "thread_local throw true try typedef typeid typename union unsigned using virtual "
+    "void volatile wchar_t while xor xor_eq std armature params fmt tl ";
 
 }  // namespace
 
 std::string in_cpp(std::string_view name) {
-  const bool is_taken = std::ranges::find(kKeywords, name) != kKeywords.end();
+  const bool is_taken = kTaken.find(" " + std::string{name} + " ") != kTaken.npos;
   return is_taken ? std::string{name} + "_" : std::string{name};
 }
 

@@ -138,6 +138,27 @@ TEST_F(DeploymentTest, AStoryThatFailedTellsItsReason) {
   EXPECT_EQ(run("", "").json.find("reason"), std::string::npos);
 }
 
+TEST_F(DeploymentTest, WhoIsUnwellAtTheEndIsToldAndIsTheStatusWhereNoGoalsJudge) {
+  const std::string three = ", params: {beats: 3}", limit = "run: {time_limit_s: 0.3}\n";
+  const std::string longer = ", params: {needs_beats: true, listens_s: 1}";
+  const std::string shorter = ", params: {needs_beats: true, listens_s: 0.3}";
+  const Told unjudged = run(three, longer, limit);
+  EXPECT_EQ(unjudged.status, "degraded");
+  EXPECT_NE(unjudged.json.find(R"("reason":"ear: no young beat")"), std::string::npos)
+      << unjudged.json;
+  EXPECT_NE(unjudged.json.find(R"("unwell":["ear: no young beat"])"), std::string::npos);
+  EXPECT_NE(unjudged.table.find("unwell: ear: no young beat"), std::string::npos) << unjudged.table;
+
+  const Told finished = run(three, shorter);
+  EXPECT_EQ(finished.status, "ok") << "a scenario that came to its end is judged by itself";
+  EXPECT_NE(finished.table.find("unwell: ear: no young beat"), std::string::npos);
+  EXPECT_EQ(run(three, shorter, "goals: {delay_s: 1}\n").status, "ok");
+
+  const Told well = run("", longer, limit);
+  EXPECT_EQ(well.status, "ok");
+  EXPECT_EQ(well.json.find("unwell"), std::string::npos) << "it was, before the first beat only";
+}
+
 TEST_F(DeploymentTest, AMetricThatItsPluginDoesNotDeclareIsAFaultThatNamesIt) {
   const Told told = run("", ", params: {undeclared: true}");
   EXPECT_EQ(told.status, "fault");

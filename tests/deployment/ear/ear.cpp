@@ -29,6 +29,13 @@ class Ear final : public Component {
   void step(Time now) override {
     if (!start_) start_ = now;
     finished_ = now - *start_ >= seconds(parameters_.listens);
+    if (parameters_.needs_beats) {
+      if (young_.latest()) {
+        healthy();
+      } else {
+        degraded("no young beat");
+      }
+    }
     if (beat_.fresh()) delays_s_.push_back(age_s(beat_, now));
     if (beat_.latest()) oldest_s_ = std::max(oldest_s_, age_s(beat_, now));
     if (young_.latest()) oldest_young_s_ = std::max(oldest_young_s_, age_s(young_, now));

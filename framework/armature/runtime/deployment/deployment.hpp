@@ -103,6 +103,9 @@ class Deployment {
   std::string fault() const;
   /// The faults that stayed where they were.
   std::vector<std::string> isolated_faults() const;
+  /// The components of this process that were degraded or stalled when the run began to stop, each
+  /// with its reason: "left: no picture has come for 2 s".
+  const std::vector<std::string>& unwell() const { return unwell_; }
   /// What fell silent of the deployment's other processes while it ran.
   std::vector<std::string> silent() const;
   /// Components that were not at rest when the run ended.
@@ -156,6 +159,7 @@ class Deployment {
   bool is_time_to_ask();
   void come_to_rest(RunWatch& watch);
   std::vector<std::string> find_moving() const;
+  std::vector<std::string> find_unwell() const;
   void end();
   void add_hung(const ComponentRunner& runner, std::string_view what, Duration timeout);
 
@@ -180,6 +184,7 @@ class Deployment {
   mutable std::mutex silent_mutex_;
   std::vector<std::string> silent_;
   LostPeers lost_peers_;
+  std::vector<std::string> unwell_;
   std::vector<std::string> moving_;
   std::vector<const ComponentRunner*> hung_;
   std::vector<std::string> hangs_;

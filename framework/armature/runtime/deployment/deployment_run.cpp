@@ -14,7 +14,7 @@
 namespace armature {
 namespace {
 
-std::string fault_text(const ComponentRunner& runner) {
+std::string status_text(const ComponentRunner& runner) {
   return runner.name() + ": " + runner.status().reason;
 }
 
@@ -23,6 +23,7 @@ std::string fault_text(const ComponentRunner& runner) {
 void Deployment::run(RunWatch& watch) {
   if (await_start(watch)) {
     const std::string cause = run_until_stop(watch);
+    unwell_ = find_unwell();
     stopping_ = true;
     if (!scenario_over_) mark_trouble(StatusReporter::State::degraded);
     watch.stopping(cause);
@@ -126,6 +127,17 @@ std::vector<std::string> Deployment::find_moving() const {
   return names;
 }
 
+std::vector<std::string> Deployment::find_unwell() const {
+  std::vector<std::string> unwell;
+  for (const auto& runner : runners_) {
+    const StatusReporter::State state = runner->status().state;
+    if (state == StatusReporter::State::degraded || state == StatusReporter::State::stalled) {
+      unwell.push_back(status_text(*runner));
+    }
+  }
+  return unwell;
+}
+
 void Deployment::end() {
   for (const ComponentRunner* runner : scheduler_->stop(kStepTimeout)) {
     add_hung(*runner, "step", kStepTimeout);
@@ -192,7 +204,7 @@ bool Deployment::any_finished() const {
 
 std::string Deployment::component_fault() const {
   for (const auto& runner : runners_) {
-    if (runner->faulted() && stops_run(config_of(*runner))) return fault_text(*runner);
+    if (runner->faulted() && stops_run(config_of(*runner))) return status_text(*runner);
   }
   return {};
 }
@@ -210,7 +222,7 @@ std::vector<std::string> Deployment::isolated_faults() const {
   std::vector<std::string> faults;
   for (const auto& runner : runners_) {
     if (!runner->faulted() || stops_run(config_of(*runner))) continue;
-    faults.push_back(fault_text(*runner) + " (the run went on without it)");
+    faults.push_back(status_text(*runner) + " (the run went on without it)");
   }
   return faults;
 }

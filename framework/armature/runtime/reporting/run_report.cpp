@@ -24,6 +24,7 @@ RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
     deployment.tell_ending("summary", *runner);
     runner->summarize(*this);
   }
+  unwell_ = deployment.unwell();
   judge(deployment, ending);
   timing_ = ending.timing;
 }
@@ -105,6 +106,10 @@ void RunReport::judge(const Deployment& deployment, const Ending& ending) {
     reasons_.insert(reasons_.begin(), *ending.stopped + " before the end of the scenario");
   }
   if (!reasons_.empty()) status_ = "goals_missed";
+  // Without goals nothing else says whether the run did what it is for.
+  if (deployment.config().goals.empty() && !deployment.scenario_over() && !unwell_.empty()) {
+    status_ = "degraded";
+  }
   if (!story_status_.empty()) status_ = story_status_;
   std::vector<std::string> faults = ending.faults;
   if (!defect_.empty()) faults.push_back(defect_);
@@ -150,7 +155,8 @@ std::string shown(const std::vector<double>& values) {
 /// Of a run that is not ok, in one place, whatever ended it.
 std::string first_reason(const RunReport& report) {
   if (!report.story_reason().empty()) return report.story_reason();
-  return report.reasons().empty() ? "" : report.reasons().front();
+  if (!report.reasons().empty()) return report.reasons().front();
+  return report.status() == "degraded" ? report.unwell().front() : "";
 }
 
 }  // namespace
@@ -165,6 +171,7 @@ std::string to_json(const RunReport& report) {
   }
   if (!unmeasured.empty()) json["not_measured"] = unmeasured;
   if (!report.reasons().empty()) json["reasons"] = report.reasons();
+  if (!report.unwell().empty()) json["unwell"] = report.unwell();
   if (report.timing()) json["timing"] = to_json(*report.timing());
   return json.dump();
 }
@@ -207,6 +214,7 @@ std::string to_table(const RunReport& report, const Mark& mark) {
                        mark(report.status(), report.status() == "ok"));
   if (!report.story_reason().empty()) table += fmt::format("    {}\n", report.story_reason());
   for (const auto& reason : report.reasons()) table += fmt::format("    {}\n", reason);
+  for (const auto& unwell : report.unwell()) table += fmt::format("    unwell: {}\n", unwell);
   if (report.timing()) table += to_table(*report.timing());
   return table;
 }

@@ -42,13 +42,16 @@ class RunReport final : public Summary {
   void not_measured(std::string key, std::string title, std::string why) override;
   void failed(std::string status, std::string reason) override;
 
-  /// "ok", "goals_missed", "fault", or what a component gave for the scenario's failure
-  /// ("face_not_found").
+  /// "ok", "goals_missed", "fault", what a component gave for the scenario's failure
+  /// ("face_not_found"), or "degraded": the deployment has no goals, and components were unwell
+  /// when it was stopped.
   const std::string& status() const { return status_; }
   /// Why the scenario did not come to its end, as the component says that followed it, or "".
   const std::string& story_reason() const { return story_reason_; }
   /// What else is not ok: a line per goal, fault or lost process.
   const std::vector<std::string>& reasons() const { return reasons_; }
+  /// Who was degraded or stalled when the run began to stop, and why, whatever its status.
+  const std::vector<std::string>& unwell() const { return unwell_; }
   const std::vector<Figure>& figures() const { return figures_; }
   /// Nothing unless it was asked for: these figures differ from run to run, also in lockstep.
   const std::optional<RunTiming>& timing() const { return timing_; }
@@ -63,13 +66,13 @@ class RunReport final : public Summary {
   std::vector<Figure> figures_;
   std::string story_status_, story_reason_;
   std::string status_ = "ok";
-  std::vector<std::string> reasons_;
+  std::vector<std::string> reasons_, unwell_;
   std::optional<RunTiming> timing_;
 };
 
 /// One JSON object: `status` first, `reason` when that is not ok, figures in order, why any of them
-/// is null under `not_measured`, and `reasons`; numbers as the shortest text that reads back the
-/// same.
+/// is null under `not_measured`, `reasons`, and `unwell`; numbers as the shortest text that reads
+/// back the same.
 std::string to_json(const RunReport& report);
 /// One JSON object with what the closing table says, so that a page can show it again: `status`,
 /// `reasons`, `figures` in order, each with `key`, `title`, `value`, and where there are such

@@ -19,17 +19,9 @@ constexpr double kSingular = 1e-6;        // manipulability
 constexpr double kLimitTolerance = 1e-9;  // [rad] or [m] that of the kind
 constexpr int kUnbounded = 6;             // restarts of an arm without spare joints
 constexpr int kAnywhere = 8;              // every so manieth start may end beyond all limits
-constexpr int kJumps = 2;                 // over gaps between limits, in one start
 constexpr int kFolds = 12;                // steps to a fold, in one start
 constexpr double kNearly = 1e-3;          // [m], [rad]: an error from which folds are looked for
 constexpr double kSettling = 0.7;         // to this part each of them must lower the error
-
-/// The i-th number of the van der Corput sequence in `base`: in (0, 1), evenly spread.
-double radical_inverse(int i, int base) {
-  double result = 0, digit = 1.0 / base;
-  for (; i > 0; i /= base, digit /= base) result += digit * (i % base);
-  return result;
-}
 
 struct Range {
   double lower, upper;
@@ -47,13 +39,20 @@ Range start_range(const RobotModel& model, int joint) {
           std::isfinite(upper) ? upper : lower + longest};
 }
 
-/// A Halton point of the joint space within limits.
-JointVector halton(const RobotModel& model, int i) {
-  constexpr std::array<int, kMaxJoints> kPrimes{2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37};
+/// The points i = 1, 2, ... of the joint space within limits are evenly spread, and so is every
+/// third of them: joint j goes on by a part of its range that is a power of the root of
+/// x^(n + 1) = x + 1 (M. Roberts, "The unreasonable effectiveness of quasirandom sequences", 2018).
+JointVector spread_point(const RobotModel& model, int i) {
+  constexpr int kEnough = 60;  // iterations to the root
+  double root = 2;
+  for (int k = 0; k < kEnough; ++k) root = std::pow(1 + root, 1.0 / (model.dof() + 1));
   JointVector q(model.dof());
+  double part = 1;
   for (int j = 0; j < model.dof(); ++j) {
+    part /= root;
     const auto [lower, upper] = start_range(model, j);
-    q[j] = lower + radical_inverse(i, kPrimes[static_cast<std::size_t>(j)]) * (upper - lower);
+    const double parts = 0.5 + i * part;
+    q[j] = lower + (parts - std::floor(parts)) * (upper - lower);
   }
   return q;
 }
@@ -79,10 +78,13 @@ Numeric::Numeric(const RobotModel& model, const Parameters& parameters)
       kernel_{descent::kernel()},
       resting_{resting_position(model)} {
   for (int i = 0; i < model.dof(); ++i) {
-    if (turns_freely(model, i)) turning_ |= descent::JointSet{1} << i;
+    if (!turns_freely(model, i)) continue;
+    turning_ |= descent::JointSet{1} << i;
+    const bool all_around = model.upper()[i] - model.lower()[i] >= 2 * std::numbers::pi;
+    if (all_around) everywhere_ |= descent::JointSet{1} << i;
   }
   const int samples = parameters.max_restarts * parameters.candidates;
-  for (int i = 1; i <= samples; ++i) samples_.push_back(halton(model, i));
+  for (int i = 1; i <= samples; ++i) samples_.push_back(spread_point(model, i));
 }
 
 const JointVector& Numeric::best_sample(const descent::Goal& goal, int restart) const {
@@ -140,7 +142,7 @@ descent::End Numeric::started(const Task& task, int start, const JointVector& fr
 
 descent::JointSet Numeric::bounded(const Task& task, int start) const {
   if (start % kAnywhere == 0) return 0;
-  if (task.spare > 0 || (start > kUnbounded && start % 2 == 1)) return descent::kAllJoints;
+  if (task.spare > 0 || (start > kUnbounded && start % 2 == 1)) return ~everywhere_;
   return ~turning_;
 }
 
@@ -236,7 +238,7 @@ IkStatus Numeric::solve(const IkGoal& goal, const JointVector& seed, IkBranches&
   for (int start = 0; start <= parameters_.max_restarts && budget > 0; ++start) {
     descent::End end = started(task, start, start == 0 ? seed : best_sample(task.goal, start - 1));
     kernel_.descend(chain_, task.goal, budget, end);
-    for (int i = 0; i < kJumps && !end.reached && jump(end); ++i) {
+    if (!end.reached && jump(end)) {
       least = std::min(least, end.error);
       kernel_.descend(chain_, task.goal, budget, end);
     }

@@ -66,6 +66,7 @@ class Numeric final : public IkSolver {
   const descent::Kernel& kernel_;
   JointVector resting_;
   descent::JointSet turning_ = 0;     // joints for which a whole turn changes nothing
+  descent::JointSet everywhere_ = 0;  // of these the ones whose limits are a whole turn apart
   std::vector<JointVector> samples_;  // of the joint space, `candidates` per restart
 };
 

@@ -43,6 +43,14 @@ TEST(Sr1Biopsy, SixTurningJointsKeepTheNeedleOnTheLineAsWell) {
   EXPECT_GT(run.figure("other_joints_deg"), 10);
 }
 
+TEST(Sr1Biopsy, ANeedleThatIsStoppedInTheHeadStaysOnItsLine) {
+  for (const char* end : {"7.1", "7.4", "9.2"}) {  // s: two of the insertion, one of the withdrawal
+    SCOPED_TRACE(end);
+    const DeploymentRun run = biopsy({kSixTurningJoints, std::string{"run.time_limit_s="} + end});
+    EXPECT_LE(run.figure("line_deviation_mm"), 1e-6) << run.text();
+  }
+}
+
 TEST(Sr1Biopsy, SolversRegistrationsAndTrajectoriesAreSwappedByOneWord) {
   for (const char* swap : {"components.motion.ik.plugin=ik/numeric",
                            "components.registration.plugin=registration/affine4",

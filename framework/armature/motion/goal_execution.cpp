@@ -9,8 +9,7 @@ namespace {
 
 using State = GoalStatus::State;
 
-constexpr int kMaxAttempts = 3;  // to plan while the arm moves
-constexpr Duration kEndsSoon = seconds(0.5);
+constexpr int kMaxAttempts = 3;                    // to plan while the arm moves
 constexpr double kStill = 1e-3;                    // [rad/s] or [m/s] that an arm tells of itself
 constexpr Duration kPausePatience = seconds(0.1);  // behind the start that its plan should have
 
@@ -74,12 +73,12 @@ void GoalExecution::fail_all(std::string_view stage, const ReasonText& reason) {
 }
 
 void GoalExecution::begin_late(Time now) {
-  const TrajectoryView last = reference_.last();
-  if (now > last.start && armature::at_rest(last.at(last.start))) reference_.postpone_last(now);
+  const Time start = reference_.last_start();
+  if (now > start && armature::at_rest(reference_.at(start))) reference_.postpone_last(now);
 }
 
 void GoalExecution::arrive(Time now, const JointVector& q) {
-  const Time end = reference_.last().end();
+  const Time end = reference_.end();
   const JointVector goal = reference_.at(end).q;
   const ReasonText stray =
       tolerance_violation(model_, q, {goal, "the goal", "goal_tolerance"}, options_.goal_tolerance);
@@ -114,18 +113,8 @@ bool GoalExecution::silent(Time now, const std::optional<MeasuredJoints>& measur
   return true;
 }
 
-bool GoalExecution::stop_about_incision(Time now) {
-  if (!tracker_ || !tracker_->pivots()) return false;
-  if (tracker_->stop(reference_.at(now), now, last_goal_id_, way_)) {
-    reference_.splice(way_);
-    return true;
-  }
-  // A way about the incision ends in a rest by itself.
-  return reference_.last().end() - now < kEndsSoon;
-}
-
 void GoalExecution::stop(Time now) {
-  if (stop_about_incision(now)) return;
+  if (reference_.slow_down(now, limits_)) return;
   reference_.splice(short_stop_from(reference_.at(now), limits_.max_velocity,
                                     limits_.max_acceleration, now, last_goal_id_));
 }
@@ -147,12 +136,12 @@ void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
     fail_all("execution", stray);
     return stop(now);
   }
-  if (!halted() && now >= reference_.last().end()) come_to(measured.q, now);
+  if (!halted() && now >= reference_.end()) come_to(measured.q, now);
 }
 
 bool GoalExecution::guided(Time now) const {
   const bool given = active_ && active_mode_ == MotionMode::guided;
-  return given && !(pending_ && pending_->standing) && now >= reference_.last().end();
+  return given && !(pending_ && pending_->standing) && now >= reference_.end();
 }
 
 void GoalExecution::forget_if_late(Time now) {
@@ -183,7 +172,7 @@ void GoalExecution::begin(Time now, const std::optional<MeasuredJoints>& measure
 }
 
 void GoalExecution::stay_with(const MeasuredJoints& measured, Time now) {
-  if (now < reference_.last().end()) return;
+  if (now < reference_.end()) return;
   const JointVector stands = reference_.at(now).q;
   const auto is_within = [&](const JointBound& bound) {
     return is_near(model_, measured.q, stands, bound);
@@ -209,11 +198,11 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
   }
   if (halted()) stay_with(*measured, now);
   if (pending_ && pending_->mode == MotionMode::pause && now > pending_->start + kPausePatience) {
-    stop_off_the_way(now);
+    hold_instead(now);
   }
   watch(now, *measured);
   reference_.advance(now);
-  if (active_ && now >= reference_.last().end()) arrive(now, measured->q);
+  if (active_ && now >= reference_.end()) arrive(now, measured->q);
 }
 
 ReasonText GoalExecution::refusal(const MotionGoal& goal, const ReasonText& wrong) const {
@@ -277,7 +266,7 @@ void GoalExecution::stop_for(std::uint64_t goal_id, MotionMode mode, Time now) {
   execute(goal_id, mode, now);
 }
 
-void GoalExecution::stop_off_the_way(Time now) {
+void GoalExecution::hold_instead(Time now) {
   const std::uint64_t goal_id = pending_->goal_id;
   pending_.reset();
   request_.reset();
@@ -291,7 +280,7 @@ void GoalExecution::ask_for_plan(Pending pending, Time now) {
                          .continues = pending.continues,
                          .start = pending.start,
                          .from = reference_.at(pending.start),
-                         .since = reference_.trajectory_at(pending.start).start};
+                         .since = reference_.began(pending.start)};
   pending_ = pending;
 }
 
@@ -299,10 +288,10 @@ void GoalExecution::ask_again(Time now) {
   Pending next = *pending_;
   next.budget *= 2;
   if (++next.attempt > kMaxAttempts && !next.standing) {
-    if (next.mode == MotionMode::pause) return stop_off_the_way(now);
+    if (next.mode == MotionMode::pause) return hold_instead(now);
     next.standing = true;
     stop(now);
-    next.start = reference_.last().end();
+    next.start = reference_.end();
   }
   ask_for_plan(next, now);
 }
@@ -325,7 +314,7 @@ bool GoalExecution::take(const PlanAnswer& answer, Time now) {
   if (!waited_for) return false;
   if (!answer.reason.empty()) {
     if (pending_->mode == MotionMode::pause) {
-      stop_off_the_way(now);
+      hold_instead(now);
       return false;
     }
     pending_.reset();
@@ -402,7 +391,7 @@ bool GoalExecution::at_rest(Time now) const {
     const bool silent = !measured_ && now - begin_after_ > options_.measured_max_age;
     return silent || rest_.rests();
   }
-  return armature::at_rest(reference_.at(now)) && now >= reference_.last().end() &&
+  return armature::at_rest(reference_.at(now)) && now >= reference_.end() &&
          (!measured_ || rest_.rests());
 }
 
@@ -412,7 +401,7 @@ std::optional<GoalStatus> GoalExecution::current(Time now) const {
                     .state = State::executing,
                     .stage = {},
                     .reason = active_mode_ == MotionMode::tracking ? behind_ : ReasonText{},
-                    .remaining_s = std::max(0.0, to_seconds(reference_.last().end() - now)),
+                    .remaining_s = std::max(0.0, to_seconds(reference_.end() - now)),
                     .stops_ahead = stops_ahead_};
 }
 

@@ -52,7 +52,7 @@ struct ExecutionOptions {
 /// only when it begins at rest; else it is asked for again with twice the budget, and after three
 /// times the arm stops and it is planned from rest. A newer goal takes the place of one that is
 /// being planned. A goal that fails leaves the motion before it as it is. A pause asks for a plan
-/// along the way, too; when that does not come within 0.1 s, the reference stops beside it. A
+/// along the way, too; when that does not come within 0.1 s, the reference stops without one. A
 /// target that is tracked and cannot be met within limits from where the arm is and how it moves
 /// has not failed as long as the arm moves: the motion towards where it was goes on, and ends in a
 /// stop. Real-time safe.
@@ -128,8 +128,8 @@ class GoalExecution {
   /// Whether the reference goes along a planned way now.
   bool is_under_way(Time now) const;
   void stop_for(std::uint64_t goal_id, MotionMode mode, Time now);
-  /// A pause whose plan was refused, or does not come.
-  void stop_off_the_way(Time now);
+  /// Of a pause whose plan was refused, or does not come.
+  void hold_instead(Time now);
   void execute(std::uint64_t goal_id, MotionMode mode, Time now, int stops_ahead = 0);
   GoalStatus& report(std::uint64_t goal_id, GoalStatus::State state, std::string_view stage = {},
                      const ReasonText& reason = {});
@@ -148,9 +148,8 @@ class GoalExecution {
   /// Why the arm is not heard, or empty.
   ReasonText silence(Time now, const std::optional<MeasuredJoints>& measured) const;
   bool silent(Time now, const std::optional<MeasuredJoints>& measured);
+  /// On the way that the reference is on; beside it only where that takes too long.
   void stop(Time now);
-  /// Of a shaft that is in an incision; false where it cannot, or need not, stop about it.
-  bool stop_about_incision(Time now);
   /// At rest where the arm is, and not where it is just passing.
   void begin(Time now, const std::optional<MeasuredJoints>& measured);
   /// Once the reference of an arm that is halted rests.

@@ -82,7 +82,7 @@ TEST_F(GoalExecutionTest, AHaltedArmThatLagsComesToWhereItWasToStop) {
   give(goal_at(1, 2, -2, 2));
   step_to(0.8);
   execution_.halt("somebody pressed the button", now_);
-  const JointVector stands = execution_.reference().last().at(now_ + seconds(5)).q;
+  const JointVector stands = execution_.reference().at(now_ + seconds(5)).q;
   JointVector arm = before_.q;
   for (int k = 0; k < 2000; ++k) {  // a lag of 50 ms
     arm += (execution_.reference().at(now_).q - arm) * (0.001 / 0.05);

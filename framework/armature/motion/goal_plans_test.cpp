@@ -8,7 +8,8 @@ namespace {
 TEST_F(GoalExecutionTest, APlanThatTookLongerThanItsBudgetBeginsLateAndNotInItsMidst) {
   step_to(0.1);
   give(goal_at(1, 0.5, 0.5, 0.5));
-  const double lasts_s = execution_.reference().last().duration_s();
+  const double lasts_s =
+      to_seconds(execution_.reference().end() - execution_.reference().last_start());
   now_ = now_ + seconds(0.09);
   execution_.update(now_, MeasuredJoints{now_, home_});
   EXPECT_EQ(execution_.reference().at(now_).q, home_);

@@ -35,6 +35,7 @@ void Reference::splice(const ShortTrajectory& next) {
   entry.own = next;
   entry.sample = {};
   entry.is_own = true;
+  entry.slows_from.reset();
 }
 
 void Reference::splice(const TrajectoryView& next, SampleRef sample) {
@@ -42,6 +43,7 @@ void Reference::splice(const TrajectoryView& next, SampleRef sample) {
   entry.elsewhere = next;
   entry.sample = std::move(sample);
   entry.is_own = false;
+  entry.slows_from.reset();
 }
 
 void Reference::postpone_last(Time start) {
@@ -58,10 +60,38 @@ void Reference::advance(Time now) {
   for (std::size_t i = count_; i < entries_.size(); ++i) entries_[i].sample = {};
 }
 
-TrajectoryView Reference::trajectory_at(Time time) const {
+std::size_t Reference::index_at(Time time) const {
   std::size_t holds = 0;
   while (holds + 1 < count_ && entries_[holds + 1].start() <= time) ++holds;
-  return entries_[holds].view();
+  return holds;
+}
+
+Time Reference::Entry::end() const {
+  if (!slows_from) return view().end();
+  return *slows_from + seconds(slowing.duration_s()) + Duration{1};  // rounded up
+}
+
+JointState Reference::Entry::at(Time time) const {
+  if (!slows_from || time <= *slows_from) return view().at(time);
+  return slowing.at(view(), to_seconds(time - *slows_from));
+}
+
+bool Reference::slow_down(Time now, const MotionLimits& limits) {
+  const std::size_t holds = index_at(now);
+  Entry& entry = entries_[holds];
+  if (entry.slows_from) {
+    drop_behind(holds);
+    return true;
+  }
+  if (!entry.slowing.begin(entry.view(), to_seconds(now - entry.start()), limits)) return false;
+  entry.slows_from = now;
+  drop_behind(holds);
+  return true;
+}
+
+void Reference::drop_behind(std::size_t holds) {
+  ++serial_;
+  while (count_ > holds + 1) entries_[--count_].sample = {};
 }
 
 }  // namespace armature

@@ -3,8 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "armature/bus/sample.hpp"
+#include "armature/motion/slowing.hpp"
 #include "armature/robot/trajectories/short_trajectory.hpp"
 #include "armature/values/time.hpp"
 
@@ -35,15 +37,21 @@ class Reference {
   /// Lets the trajectory spliced last, which starts at rest, take over later than it was made for.
   void postpone_last(Time start);
 
+  /// Stops at the place of the trajectory that holds where that place can be reached soonest: time
+  /// runs slower along it from `now` on; what would have taken over later is dropped. One that is
+  /// being slowed already goes on so. False, and nothing has changed, where Slowing refuses.
+  bool slow_down(Time now, const MotionLimits& limits);
+
   /// Forgets trajectories that `now` has left behind.
   void advance(Time now);
 
   /// Needs started().
-  JointState at(Time time) const { return trajectory_at(time).at(time); }
-  /// The trajectory that holds at `time`; its numbers are there until the next change.
-  TrajectoryView trajectory_at(Time time) const;
-  /// The trajectory spliced last.
-  TrajectoryView last() const { return entries_[count_ - 1].view(); }
+  JointState at(Time time) const { return entry_at(time).at(time); }
+  /// When the trajectory took over that holds at `time`.
+  Time began(Time time) const { return entry_at(time).start(); }
+  /// When the trajectory spliced last takes over, and when it has come to its end.
+  Time last_start() const { return entries_[count_ - 1].start(); }
+  Time end() const { return entries_[count_ - 1].end(); }
 
  private:
   /// Either `own`, or in the memory of `sample`.
@@ -52,10 +60,17 @@ class Reference {
     TrajectoryView elsewhere;
     SampleRef sample;
     bool is_own = true;
+    std::optional<Time> slows_from;
+    Slowing slowing;
 
     TrajectoryView view() const { return is_own ? own.view() : elsewhere; }
     Time start() const { return is_own ? own.start : elsewhere.start; }
+    Time end() const;
+    JointState at(Time time) const;
   };
+  std::size_t index_at(Time time) const;
+  const Entry& entry_at(Time time) const { return entries_[index_at(time)]; }
+  void drop_behind(std::size_t holds);
   /// Room for one more, behind those that start before `start`.
   Entry& make_room(Time start);
 

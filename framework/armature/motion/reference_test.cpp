@@ -68,7 +68,7 @@ TEST(Reference, DropsWhatWouldHaveTakenOverLater) {
   reference.start(Eigen::Vector3d::Zero(), Time{0});
   reference.splice(move(reference.at(Time{500}), kThere, Time{500}, 1));
   reference.splice(short_hold_at(Eigen::Vector3d::Zero(), Time{400}, 7));
-  EXPECT_EQ(reference.last().goal_id, 7u);
+  EXPECT_EQ(reference.last_start(), Time{400});
   EXPECT_EQ(reference.at(Time{2'000'000'000}).q, Eigen::Vector3d::Zero());
 }
 
@@ -81,12 +81,38 @@ TEST(Reference, HoldsTheSampleOfATrajectoryAsLongAsItIsNeeded) {
   const ShortTrajectory elsewhere = move(reference.at(Time{0}), kThere, Time{500}, 1);
   reference.splice(elsewhere.view(), pool.loan());
   reference.advance(Time{600});
-  EXPECT_EQ(reference.last().goal_id, 1u);
+  EXPECT_EQ(reference.last_start(), Time{500});
   pool.loan();
   EXPECT_EQ(pool.grown(), 1u) << "the first sample is held";
   reference.start(kThere, Time{700});
   const SampleRef one = pool.loan(), two = pool.loan();
   EXPECT_EQ(pool.grown(), 1u) << "and given back";
+}
+
+TEST(Reference, SlowsDownOnTheWayThatItIsOnAndStaysThere) {
+  Reference reference;
+  reference.start(Eigen::Vector3d::Zero(), Time{0});
+  const Time now = Time{} + seconds(0.5), later = now + seconds(0.02);
+  reference.splice(move(reference.at(Time{0}), kThere, Time{0}, 1));
+  reference.splice(short_hold_at(reference.at(later).q, later, 7));
+  const JointState moving = reference.at(now);
+  const std::uint64_t serial = reference.serial();
+  const MotionLimits limits{JointVector::Constant(3, 2), JointVector::Constant(3, 6)};
+  ASSERT_TRUE(reference.slow_down(now, limits));
+  EXPECT_NE(reference.serial(), serial) << "a plan from before would jump";
+  EXPECT_EQ(reference.at(now).q, moving.q);
+  EXPECT_EQ(reference.at(now).v, moving.v);
+  const Time end = reference.end();
+  EXPECT_LT(end, Time{} + seconds(1.2));
+  ASSERT_TRUE(reference.slow_down(now + seconds(0.1), limits));
+  EXPECT_EQ(reference.end(), end) << "a second stop changes nothing";
+  const JointState rest = reference.at(end);
+  EXPECT_TRUE(at_rest(rest));
+  EXPECT_NEAR((rest.q.normalized() - kThere.normalized()).norm(), 0, 1e-12) << "on the line";
+  reference.advance(end + seconds(1));
+  EXPECT_EQ(reference.at(end + seconds(1)).q, rest.q);
+  reference.splice(short_hold_at(rest.q, end + seconds(2), 8));
+  EXPECT_EQ(reference.end(), end + seconds(2)) << "what takes over is not slowed";
 }
 
 TEST(Reference, CountsWhatTakesOverSoThatAPlanCanSayWhatItContinues) {

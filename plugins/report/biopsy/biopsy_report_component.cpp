@@ -26,6 +26,9 @@ namespace armature::report::biopsy {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
+constexpr double kMoves_m = 1e-4;              // more than the noise of a tip that rests
+constexpr Duration kRested = seconds(0.1);     // since the last motion
+constexpr Duration kLongestRamp = seconds(3);  // an arm in a hand need not rest
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 }  // namespace
@@ -48,11 +51,14 @@ class BiopsyReport final : public Component {
   void step(Time now) override {
     if (!start_) start_ = now;
     registration_.listen([&](const msg::RegistrationResponse& response) { read(response); });
-    for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i]);
+    for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i], now);
     for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i], now);
+    // What the tip does after its task was cut off counts: the arm ramps down.
+    const bool rests = !moved_at_ || now - *moved_at_ >= kRested;
+    finished_ = ended_at_ && (rests || now - *ended_at_ >= kLongestRamp);
   }
 
-  bool finished() const override { return !ended_as_.empty(); }
+  bool finished() const override { return finished_; }
 
   void summarize(Summary& summary) const override {
     if (ended_as_ == "refused") summary.failed("refused", trouble_);
@@ -129,11 +135,15 @@ class BiopsyReport final : public Component {
                                .fiducial_error_m = response.fre_()});
   }
 
-  void read(const msg::JointState& state) {
+  void read(const msg::JointState& state, Time now) {
     const auto q = joints_of(robot_, state);
     if (!q) return degraded("measured_js: " + q.error().text);
     healthy();
     const Eigen::Isometry3d base_T_tool = forward_kinematics(robot_, *q);
+    if (!rested_at_ || (base_T_tool.translation() - *rested_at_).norm() > kMoves_m) {
+      if (rested_at_) moved_at_ = now;
+      rested_at_ = base_T_tool.translation();
+    }
     monitor_.see_tip(base_T_tool.translation(), base_T_tool.linear() * needle_axis_, turning(*q));
   }
 
@@ -151,6 +161,7 @@ class BiopsyReport final : public Component {
     for (const char* end : {"withdrawn", "aborted", "refused"}) {
       if (state.state_() == end) ended_as_ = end;
     }
+    if (!ended_as_.empty() && !ended_at_) ended_at_ = now;
     trouble_ = state.detail_();
     if (state.state_() != "at target") return;
     tip_at_target_ = monitor_.tip();
@@ -162,6 +173,9 @@ class BiopsyReport final : public Component {
   InsertionMonitor monitor_;
   std::optional<Time> start_;
   std::optional<Eigen::Vector3d> tip_at_target_;
+  std::optional<Eigen::Vector3d> rested_at_;  // the tip, when it moved last
+  std::optional<Time> moved_at_, ended_at_;   // the tip, the task
+  bool finished_ = false;
   std::optional<double> time_to_target_s_;
   std::string trouble_, ended_as_;
   Input<msg::NeedlePlan> plan_;

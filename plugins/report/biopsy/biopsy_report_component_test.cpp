@@ -87,7 +87,7 @@ TEST_F(BiopsyReportTest, TellsTheErrorsAgainstTruthAndExpectation) {
   EXPECT_FALSE(report_.component().finished());
   tell("withdrawn");
   report_.step(6);
-  EXPECT_TRUE(report_.component().finished());
+  EXPECT_TRUE(report_.component().finished()) << "the arm has rested";
   auto told = report_.figures();
   EXPECT_EQ(told.status, "");
   EXPECT_NEAR(told.metrics.at("time_to_target_s"), 4, 1e-9);
@@ -150,6 +150,46 @@ TEST_F(BiopsyReportTest, ARefusedBiopsyEndsTheRun) {
   EXPECT_EQ(report_.figures().status, "refused");
   EXPECT_EQ(report_.figures().reason, "the markers lie nearly on one line");
   EXPECT_FALSE(report_.figures().metrics.contains("target_error_mm"));
+}
+
+TEST_F(BiopsyReportTest, WatchesTheTipUntilItRestsAfterTheTaskWasCutOff) {
+  show_head();
+  JointVector q = resting_position(robot_);
+  for (const double depth : {0.0, 0.03, 0.06}) {
+    q[5] = resting_position(robot_)[5] + depth - 0.08;
+    send_arm(q);
+  }
+  report_.step(1);
+  EXPECT_NEAR(report_.figures().metrics.at("line_deviation_mm"), 0, 1e-9);
+  const auto bend = [&] {
+    q[0] += 0.01;
+    send_arm(q);
+  };
+  bend();
+  tell("refused", "a stop was asked for");
+  report_.step(2);
+  EXPECT_FALSE(report_.component().finished()) << "it moves";
+  bend();
+  report_.step(2.05);
+  const double deviation = report_.figures().metrics.at("line_deviation_mm");
+  EXPECT_GT(deviation, 1) << "and leaves its line meanwhile";
+  send_arm(q);
+  report_.step(2.2);
+  EXPECT_TRUE(report_.component().finished());
+}
+
+TEST_F(BiopsyReportTest, OfAnArmThatDoesNotRestItsEndIsNotWaitedForLong) {
+  JointVector q = resting_position(robot_);
+  send_arm(q);
+  report_.step(0.9);
+  tell("aborted");
+  double t = 1;
+  for (; t < 10 && !report_.component().finished(); t += 0.05) {
+    q[0] += 0.01;
+    send_arm(q);
+    report_.step(t);
+  }
+  EXPECT_NEAR(t, 4, 0.2);
 }
 
 TEST_F(BiopsyReportTest, AnAbortedBiopsyEndsTheRun) {

@@ -130,7 +130,14 @@ TEST(MasterManipulator, AFollowerThatCannotFollowIsHeld) {
   const DeploymentRun run =
       teleoperation(freely({kTask + "scale=10", kTask + "max_tip_speed_m_s=1",
                             "components.motion.params.max_tracking_velocity_m_s=1"}));
-  expect_ended(run, "held", "the follower cannot follow: ik: the goal: joint_limit");
+  expect_ended(run, "held", "the follower cannot follow: ik: the goal: ");
+}
+
+TEST(MasterManipulator, AFollowerThatIsTooSlowForTheHandIsTold) {
+  const DeploymentRun run = teleoperation({"components.motion.params.max_velocity_rad_s=0.1"});
+  EXPECT_NE(run.command.err.find("the instrument trails its target by more than 2 mm"),
+            std::string::npos)
+      << run.text();
 }
 
 TEST(MasterManipulator, WithoutAnIncisionTheFollowerIsAsGood) {

@@ -79,6 +79,11 @@ Motion::Motion(Setup& setup)
       execution_{model_, limits_of(setup.params(), model_), execution_of(parameters_),
                  tracker_ ? &*tracker_ : nullptr, no_tracker_} {
   if (ik_) ik_.object_to(unfit_to_track);
+  if (parameters_.remote_centre && !tracker_) {
+    setup.params().refuse({"remote_centre"}, "'remote_centre' is for tracked targets only, and " +
+                                                 no_tracker_ +
+                                                 "; choose another 'ik', for example ik/numeric");
+  }
   if (parameters_.remote_centre && !setup.is_written("incision")) {
     setup.params().refuse({"remote_centre"},
                           "'remote_centre' needs an incision, and no component writes 'incision'; "

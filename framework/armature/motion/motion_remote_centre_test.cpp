@@ -108,6 +108,18 @@ TEST(RemoteCentreMotion, ARobotWithoutAShaftIsRefused) {
       << refusal;
 }
 
+TEST(RemoteCentreMotion, ASolverThatCannotTrackIsRefusedBeforeAnythingStarts) {
+  ComponentHarness::Options options = pivoting_motion();
+  const auto at = options.component.find("ik/");
+  ASSERT_NE(at, std::string::npos) << options.component;
+  options.component.replace(at, options.component.find_first_of(",} ", at) - at, "ik/kdl");
+  const std::string refusal = refusal_of(plugins(), options);
+  EXPECT_NE(refusal.find("'remote_centre' is for tracked targets only, and 'ik/kdl' cannot track a "
+                         "target: its plugin.yaml says 'allocates: true'; choose another 'ik'"),
+            std::string::npos)
+      << refusal;
+}
+
 TEST(RemoteCentreMotion, AnIncisionThatNobodyTellsIsRefused) {
   const std::string refusal = refusal_of(plugins(), pivoting_motion({}));
   EXPECT_NE(refusal.find("'remote_centre' needs an incision, and no component writes 'incision'"),

@@ -14,6 +14,7 @@ namespace armature::task::teleoperation {
 namespace {
 
 constexpr Duration kSettlesWithin = seconds(1.0);  // an arm that lags behind its reference
+constexpr Duration kTrailsFor = seconds(0.1);      // an instrument, before that counts
 constexpr Duration kTellsWithin = seconds(1.0);    // who has not told anything yet
 constexpr double kLongestGap_s = 0.1;              // between two poses of the hand
 constexpr int kBroken = -1;                        // the gap is longer, or time went back
@@ -127,6 +128,16 @@ void Teleoperation::follow_hand(const ConsoleView& view, int periods, Time now) 
                               .pose = tool_pose_of(target.pose),
                               .velocity = target.velocity,
                               .angular_velocity = target.angular_velocity};
+  judge_following((target.pose.translation() - view.follower_T_tool->translation()).norm(), now);
+}
+
+void Teleoperation::judge_following(double behind_m, Time now) {
+  if (behind_m <= parameters_.trailing / 2) {
+    trails_since_.reset();
+    trails_ = false;
+  }
+  if (behind_m > parameters_.trailing && !trails_since_) trails_since_ = now;
+  if (trails_since_ && now - *trails_since_ >= kTrailsFor) trails_ = true;
 }
 
 void Teleoperation::await_clutch(const ConsoleView& view, const std::string& missing, Time now) {
@@ -196,6 +207,8 @@ void Teleoperation::stop_follower(Phase phase, std::string trouble) {
   follower_goal_ = MotionGoal{.mode = MotionMode::hold, .pose = {}};
   phase_ = phase;
   trouble_ = std::move(trouble);
+  trails_since_.reset();
+  trails_ = false;
 }
 
 void Teleoperation::refuse(std::string why) {

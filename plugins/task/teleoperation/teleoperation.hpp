@@ -63,12 +63,16 @@ class Teleoperation {
   const Procedure& procedure() const { return procedure_; }
   /// Why it does not go on, or "".
   const std::string& trouble() const { return trouble_; }
+  /// Whether the instrument is farther behind its target than `trailing_mm`.
+  bool trails() const { return trails_; }
   const TremorFilter& filter() const { return filter_; }
 
  private:
   void align(const ConsoleView& view, Time now);
   void judge_alignment(const ConsoleView& view, Time now);
   void follow_hand(const ConsoleView& view, int periods, Time now);
+  /// `behind_m`: from the tool to its target.
+  void judge_following(double behind_m, Time now);
   /// What of the console and the arms is silent, or "".
   static std::string silent(const ConsoleView& view);
   /// What is missing for the follower to follow, or "".
@@ -94,7 +98,8 @@ class Teleoperation {
   std::optional<MotionGoal> follower_goal_;
   std::uint64_t last_follower_id_ = 0, first_engaged_id_ = 0;
   Phase phase_ = Phase::waiting;
-  std::optional<Time> missing_since_;
+  std::optional<Time> missing_since_, trails_since_;
+  bool trails_ = false;
   std::string trouble_;
 };
 

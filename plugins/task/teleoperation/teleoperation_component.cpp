@@ -25,7 +25,10 @@ class TeleoperationComponent final : public Component {
  public:
   explicit TeleoperationComponent(Setup& setup)
       : Component{setup},
-        task_{Parameters::read(setup.params())},
+        parameters_{Parameters::read(setup.params())},
+        task_{parameters_},
+        trails_{fmt::format("the instrument trails its target by more than {:g} mm",
+                            1e3 * parameters_.trailing)},
         console_{setup.input<msg::TransformStamped>("console")},
         leader_cp_{setup.input<msg::PoseStamped>("leader_cp")},
         follower_cp_{setup.input<msg::PoseStamped>("follower_cp")},
@@ -54,6 +57,7 @@ class TeleoperationComponent final : public Component {
       log(line);
     }
     task_.see(view(), now);
+    show_health();
     send(task_.outgoing_leader_goal(now), leader_goal_, now);
     send(task_.outgoing_follower_goal(), follower_goal_, now);
     publish_state(now);
@@ -88,17 +92,18 @@ class TeleoperationComponent final : public Component {
         bad = wrong.view();
       }
     }
-    show_health(bad);
+    bad_ = bad;
     return view;
   }
 
-  void show_health(const std::string& bad) {
-    if (bad == shown_bad_) return;
-    shown_bad_ = bad;
-    if (bad.empty()) {
+  void show_health() {
+    const std::string wrong = !bad_.empty() ? bad_ : task_.trails() ? trails_ : "";
+    if (wrong == shown_wrong_) return;
+    shown_wrong_ = wrong;
+    if (wrong.empty()) {
       healthy();
     } else {
-      degraded(bad);
+      degraded(wrong);
     }
   }
 
@@ -116,8 +121,10 @@ class TeleoperationComponent final : public Component {
     if (said) log(*said);
   }
 
+  Parameters parameters_;
   Teleoperation task_;
-  std::string shown_bad_;
+  std::string trails_;             // what is said of an instrument that does
+  std::string bad_, shown_wrong_;  // what was told badly
   Input<msg::TransformStamped> console_;
   Input<msg::PoseStamped> leader_cp_, follower_cp_;
   Input<msg::Bool> clutch_;

@@ -56,6 +56,28 @@ TEST_F(TeleoperationTest, StampsThatJumpHoldTheFollower) {
   }
 }
 
+TEST_F(TeleoperationTest, AnInstrumentThatTrailsIsTold) {
+  close_clutch();
+  const auto stay_behind = [&](int steps, double mm) {
+    for (int i = 0; i < steps; ++i) {
+      see();
+      view_.follower_T_tool->translation() =
+          follower_goal_->pose.position + Vector3d{1e-3 * mm, 0, 0};
+    }
+    return task_.trails();
+  };
+  EXPECT_FALSE(stay_behind(300, 1.9));
+  EXPECT_FALSE(stay_behind(90, 2.1)) << "it may be a moment";
+  EXPECT_TRUE(stay_behind(20, 2.1));
+  EXPECT_TRUE(stay_behind(20, 1.1)) << "it is not told again and again";
+  EXPECT_FALSE(stay_behind(2, 0.9));
+  EXPECT_FALSE(stay_behind(90, 2.1)) << "counted anew";
+  EXPECT_TRUE(stay_behind(20, 2.1));
+  view_.clutch_closed = false;
+  see();
+  EXPECT_FALSE(task_.trails());
+}
+
 TEST_F(TeleoperationTest, WhatFallsSilentHoldsTheFollowerUntilTheClutchWasOpen) {
   const auto held = [&](auto silence, const std::string& reason) {
     SCOPED_TRACE(reason);

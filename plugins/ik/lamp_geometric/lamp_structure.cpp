@@ -19,7 +19,8 @@ constexpr int kBalance = 2, kParallelogram = 3;
 /// Why joint `i` is not the lamp's; empty when it is.
 std::string joint_mismatch(const Joint& joint, std::size_t i) {
   const auto must = [&](std::string_view what, double wanted, double found) {
-    return fmt::format("joint '{}': {} must be {:g}, it is {:g}", joint.name, what, wanted, found);
+    return fmt::format("joint '{}': {} must be {:g}, it is {:.10g}", joint.name, what, wanted,
+                       found);
   };
   if (joint.type != Joint::Type::revolute)
     return fmt::format("joint '{}' is not revolute", joint.name);

@@ -44,7 +44,7 @@ std::string link_mismatch(const Link& link, std::size_t i) {
   const bool parallel = i == 2;
   const double first = parallel ? 0 : kPi / 2, second = parallel ? kPi : -kPi / 2;
   if (!is_angle(link.alpha, first) && !is_angle(link.alpha, second))
-    return fmt::format("alpha_deg must be {}, it is {:g}", parallel ? "0 or 180" : "90 or -90",
+    return fmt::format("alpha_deg must be {}, it is {:.10g}", parallel ? "0 or 180" : "90 or -90",
                        link.alpha / kDegree);
   if (parallel && !(std::abs(link.a) > kSame)) return "a_m must not be 0";
   if (i >= 4 && std::abs(link.a) > kSame)

@@ -36,7 +36,7 @@ std::string joint_mismatch(const Joint& joint, std::size_t i) {
   if (!slides && std::abs(joint.d) > kSame) return must_be_zero("d_m", joint.d);
   if (i == 0 || right_angle(joint.alpha) != 0) return {};
   if (i == 3 && std::abs(std::sin(joint.alpha)) < kSame) return {};
-  return fmt::format("joint '{}': alpha_deg must be {}, it is {:g}", joint.name,
+  return fmt::format("joint '{}': alpha_deg must be {}, it is {:.10g}", joint.name,
                      i == 3 ? "a multiple of 90" : "90 or -90", joint.alpha / kDegree);
 }
 

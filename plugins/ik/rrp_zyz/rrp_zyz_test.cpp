@@ -104,9 +104,9 @@ std::string refusal(Change change) {
 TEST(RrpStructure, TheFirstMismatchIsNamed) {
   const std::string begin = "not a polar arm with a ZYZ wrist: ";
   EXPECT_EQ(refusal([](auto& rows, auto&) { rows[1].alpha = 1; }),
-            begin + "joint 'j2': alpha_deg must be 90 or -90, it is 57.2958");
+            begin + "joint 'j2': alpha_deg must be 90 or -90, it is 57.29577951");
   EXPECT_EQ(refusal([](auto& rows, auto&) { rows[3].alpha = 0.1; }),
-            begin + "joint 'j4': alpha_deg must be a multiple of 90, it is 5.72958");
+            begin + "joint 'j4': alpha_deg must be a multiple of 90, it is 5.729577951");
   EXPECT_EQ(refusal([](auto& rows, auto&) { rows[4].a = 0.02; }),
             begin + "joint 'j5': a_m must be 0, it is 0.02");
   EXPECT_EQ(refusal([](auto& rows, auto&) { rows[5].d = 0.02; }),

@@ -42,7 +42,7 @@ bool is_angle(double angle, double wanted) { return std::abs(wrap_angle(angle - 
 /// Why the link between two joints is not the pattern's; empty when it is.
 std::string link_mismatch(const Link& link) {
   if (!is_angle(link.alpha, std::numbers::pi / 2) && !is_angle(link.alpha, -std::numbers::pi / 2))
-    return fmt::format("joint '{}': alpha_deg must be 90 or -90, it is {:g}", link.row->name,
+    return fmt::format("joint '{}': alpha_deg must be 90 or -90, it is {:.10g}", link.row->name,
                        link.alpha / kDegree);
   if (std::abs(link.a) > kSame)
     return fmt::format("joint '{}': a_m must be 0, it is {:g}", link.row->name, link.a);

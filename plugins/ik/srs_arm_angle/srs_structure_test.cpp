@@ -88,7 +88,7 @@ TEST(SrsStructure, TheFirstMismatchIsNamed) {
   const std::string begin = "not an S-R-S arm: ";
   EXPECT_EQ(refusal([](auto&) {}), "");
   EXPECT_EQ(refusal([](auto& rows) { rows[1].alpha = 1; }),
-            begin + "joint 'j2': alpha_deg must be 90 or -90, it is 57.2958");
+            begin + "joint 'j2': alpha_deg must be 90 or -90, it is 57.29577951");
   EXPECT_EQ(refusal([](auto& rows) { rows[3].a = 0.0825; }),
             begin + "joint 'j4': a_m must be 0, it is 0.0825");
   EXPECT_EQ(refusal([](auto& rows) { rows[5].d = 0.02; }),

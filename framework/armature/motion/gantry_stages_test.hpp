@@ -111,11 +111,12 @@ class OneQuintic : public TrajectoryPlanner, public Moody {
  public:
   mutable TrajectoryRequest last_request;
   bool jumps = false;
+  double ends_off_m = 0;  // of the last waypoint
 
   Expected<Trajectory> plan(const TrajectoryRequest& request) const override {
     may_throw();
     last_request = request;
-    const JointVector& end = request.segments.back().q.back();
+    const JointVector end = request.segments.back().q.back().array() + ends_off_m;
     for (double duration = 0.05; duration < 30; duration *= 1.1) {
       Trajectory trajectory{.goal_id = request.goal_id,
                             .dof = static_cast<int>(end.size()),

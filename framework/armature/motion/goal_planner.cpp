@@ -246,7 +246,9 @@ PlanResult GoalPlanner::timed(const Path& path, const MotionGoal& goal, const Jo
   if (!trajectory) return fail("trajectory", trajectory.error().text);
   plan.trajectory = std::move(*trajectory);
   plan.trajectory.goal_id = goal.id;
-  const ReasonText wrong = trajectory_defect(plan.trajectory.view(), model_, limits_, from, start);
+  const TrajectoryView made = plan.trajectory.view();
+  ReasonText wrong = trajectory_defect(made, model_, limits_, from, start);
+  if (wrong.empty()) wrong = missed_goal(made, model_, plan.joint_path.back().q.back());
   if (!wrong.empty()) {
     return fail("trajectory", with_way_out(std::string{wrong.view()}, plan, model_));
   }

@@ -335,6 +335,16 @@ TEST(GoalPlanner, HandsTheJerkLimitToTheTrajectory) {
   EXPECT_EQ(gantry.trajectory.last_request.max_jerk, limits.max_jerk);
 }
 
+TEST(GoalPlanner, RefusesATrajectoryThatEndsElsewhereThanItsPath) {
+  Gantry gantry;
+  gantry.trajectory.ends_off_m = -0.02;
+  const auto plan = gantry.planner().plan(goal_at(1, 0.5, 0.6, 0.7), rest_at(0, 0, 0), kStart);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().stage, "trajectory");
+  EXPECT_EQ(plan.error().reason,
+            "the trajectory ends elsewhere than its path: joint z at 0.6800 m instead of 0.7000");
+}
+
 TEST(GoalPlanner, StopsFirstWhenTheTrajectoryCannotBeSpliced) {
   Gantry gantry;
   gantry.trajectory.jumps = true;  // a plugin that starts from rest whatever it is told

@@ -112,6 +112,11 @@ std::optional<Retimed> brake_at(const Trajectory& trajectory, double at_s, doubl
 
 Trajectory followed_by(Trajectory first, const Trajectory& second) {
   const double offset = first.duration_s();
+  if (offset == 0) {
+    first.knots = second.knots;
+    first.pieces = second.pieces;
+    return first;
+  }
   for (std::size_t k = 1; k < second.knots.size(); ++k) {
     first.knots.push_back(offset + second.knots[k]);
   }
@@ -131,7 +136,8 @@ Trajectory part(const Trajectory& trajectory, double from_s, double to_s) {
     const auto knot = trajectory.knots.begin() + k;
     const bool outside = *(knot + 1) <= from + kSamePlace_s || *knot >= to - kSamePlace_s;
     if (outside) continue;
-    const double begin = std::max(*knot, from);
+    // What is left out beside a knot is gone by the piece on its other side.
+    const double begin = cut.knots.empty() ? from : *knot;
     if (cut.knots.empty()) cut.knots.push_back(0);
     cut.knots.push_back(std::min(*(knot + 1), to) - from);
     for (int j = 0; j < trajectory.dof; ++j) {
@@ -139,7 +145,10 @@ Trajectory part(const Trajectory& trajectory, double from_s, double to_s) {
       cut.pieces.push_back(begin == *knot ? piece : piece.shifted(begin - *knot));
     }
   }
-  if (!cut.knots.empty()) return cut;
+  if (!cut.knots.empty()) {
+    cut.knots.back() = to - from;
+    return cut;
+  }
   return hold_at(state_at(trajectory.view(), from).q, trajectory.start, trajectory.goal_id);
 }
 

@@ -12,7 +12,8 @@ namespace armature ARMATURE_EXPORT {
 /// The motion from `from_s` to `to_s`, its start at that of `trajectory`.
 Trajectory part(const Trajectory& trajectory, double from_s, double to_s);
 
-/// `first`, then `second`, which starts where that ends, whatever its start says.
+/// `first`, then `second`, which starts where that ends, whatever its start says. Of a `first` that
+/// lasts no time only the start is left: as a piece it would stand still in the midst of a motion.
 Trajectory followed_by(Trajectory first, const Trajectory& second);
 
 /// The same path from its end to its start: at t where `trajectory` is at its duration less t.

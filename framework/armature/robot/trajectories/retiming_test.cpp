@@ -179,6 +179,30 @@ TEST_F(RetimingTest, JustBeforeAStopTheRestOfTheWayIsGoneSlower) {
   }
 }
 
+TEST_F(RetimingTest, WhatLastsNoTimeLeavesNoPieceBeforeAMotion) {
+  const Trajectory whole = way();
+  const double from = place(0.4, whole);
+  const Trajectory rest = part(whole, from, whole.duration_s());
+  const Trajectory none = part(whole, from, from);
+  ASSERT_EQ(none.duration_s(), 0);
+  const Trajectory joined = followed_by(none, rest);
+  EXPECT_EQ(joined.knots, rest.knots);
+  EXPECT_EQ(joined.pieces.size(), rest.pieces.size());
+  expect_no_jump_and_within_limits(joined);
+}
+
+TEST_F(RetimingTest, APartThatIsCutJustBesideAKnotBeginsAndEndsWhereItWasCut) {
+  const Trajectory whole = way();
+  for (const double beside_s : {-9e-7, -1e-9, 0.0, 1e-9, 9e-7}) {
+    const double cut_s = whole.knots[1] + beside_s;
+    expect_near(state_at(part(whole, cut_s, whole.duration_s()).view(), 0),
+                state_at(whole.view(), cut_s));
+    const Trajectory until = part(whole, 0, cut_s);
+    EXPECT_EQ(until.duration_s(), cut_s);
+    expect_near(state_at(until.view(), cut_s), state_at(whole.view(), cut_s));
+  }
+}
+
 TEST_F(RetimingTest, AStopOfThePlannedMotionIsFound) {
   const Trajectory whole = way();
   EXPECT_NEAR(next_rest_s(whole, 0), stop_s_, 1e-12);

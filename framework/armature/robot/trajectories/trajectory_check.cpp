@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <span>
 
 namespace armature {
 namespace {
@@ -23,17 +24,23 @@ const std::string& joint_name(const RobotModel& model, int i) {
 
 const char* unit(const RobotModel& model, int i) { return model.is_revolute(i) ? "rad" : "m"; }
 
-ReasonText jump(const JointState& from, const JointState& to, const RobotModel& model) {
+/// Of joint `i`, or empty: "joint j3 jumps by 0.1 in position, 0 in velocity, 0 in acceleration".
+ReasonText jump(const Quintic::End& from, const Quintic::End& to, const RobotModel& model, int i) {
+  const double q = std::abs(to.q - from.q);
+  const double v = std::abs(to.v - from.v);
+  const double a = std::abs(to.a - from.a);
+  if (q <= kJumpPosition && v <= kJumpVelocity && a <= kJumpAcceleration) return {};
+  return ReasonText::format(
+      "joint {} jumps by {:.3g} in position, {:.3g} in velocity, {:.3g} in acceleration",
+      joint_name(model, i), q, v, a);
+}
+
+ReasonText jump_at_start(const JointState& from, const JointState& to, const RobotModel& model) {
   for (int i = 0; i < model.dof(); ++i) {
-    const double q = std::abs(to.q[i] - from.q[i]);
-    const double v = std::abs(to.v[i] - from.v[i]);
-    const double a = std::abs(to.a[i] - from.a[i]);
-    if (!(q <= kJumpPosition && v <= kJumpVelocity && a <= kJumpAcceleration)) {
-      return ReasonText::format(
-          "the trajectory does not leave the reference: joint {} jumps by {:.3g} in position, "
-          "{:.3g} in velocity, {:.3g} in acceleration",
-          joint_name(model, i), q, v, a);
-    }
+    const ReasonText wrong =
+        jump({from.q[i], from.v[i], from.a[i]}, {to.q[i], to.v[i], to.a[i]}, model, i);
+    if (wrong.empty()) continue;
+    return ReasonText::format("the trajectory does not leave the reference: {}", wrong.view());
   }
   return {};
 }
@@ -94,13 +101,45 @@ bool well_formed(const TrajectoryView& trajectory, const RobotModel& model) {
   return trajectory.dof == model.dof() && trajectory.piece_count() > 0 && trajectory.coefficients;
 }
 
+/// A piece of no duration, which nobody sees, may stand between two others.
+ReasonText unordered_knots(std::span<const double> knots) {
+  if (knots.front() != 0) {
+    return ReasonText::format("the trajectory's first knot is at {:g} s, not at 0", knots.front());
+  }
+  for (std::size_t k = 1; k < knots.size(); ++k) {
+    if (std::isfinite(knots[k]) && knots[k] >= knots[k - 1]) continue;
+    return ReasonText::format("the trajectory's knots do not ascend: {:g} s comes after {:g} s",
+                              knots[k], knots[k - 1]);
+  }
+  return {};
+}
+
+/// Where piece `k` begins: as the one before it has ended.
+ReasonText jump_between(const TrajectoryView& trajectory, int k, const RobotModel& model) {
+  const auto knot = trajectory.knots.begin() + k;
+  const double lasted_s = *knot - *(knot - 1);
+  for (int i = 0; i < model.dof(); ++i) {
+    const Quintic before = trajectory.piece(k - 1, i), after = trajectory.piece(k, i);
+    const ReasonText wrong =
+        jump({before.position(lasted_s), before.velocity(lasted_s), before.acceleration(lasted_s)},
+             {after.c[0], after.c[1], 2 * after.c[2]}, model, i);
+    if (wrong.empty()) continue;
+    return ReasonText::format("the trajectory jumps where two pieces meet, at {:.2f} s: {}", *knot,
+                              wrong.view());
+  }
+  return {};
+}
+
 }  // namespace
 
 ReasonText trajectory_defect(const TrajectoryView& trajectory, const RobotModel& model,
                              const MotionLimits& limits, const JointState& from, Time start) {
   if (!well_formed(trajectory, model)) return "the trajectory has no pieces or too few of them";
   if (trajectory.start != start) return "the trajectory does not start when it was asked to";
-  if (ReasonText wrong = jump(from, trajectory.at(start), model); !wrong.empty()) return wrong;
+  if (ReasonText wrong = unordered_knots(trajectory.knots); !wrong.empty()) return wrong;
+  if (ReasonText wrong = jump_at_start(from, trajectory.at(start), model); !wrong.empty()) {
+    return wrong;
+  }
   const JointState end = trajectory.at(trajectory.end());
   if (!(end.v.norm() <= kJumpVelocity && end.a.norm() <= kJumpAcceleration)) {
     return ReasonText::format(
@@ -108,6 +147,9 @@ ReasonText trajectory_defect(const TrajectoryView& trajectory, const RobotModel&
         end.a.norm());
   }
   for (int k = 0; k < trajectory.piece_count(); ++k) {
+    if (k > 0) {
+      if (ReasonText wrong = jump_between(trajectory, k, model); !wrong.empty()) return wrong;
+    }
     const auto knot = trajectory.knots.begin() + k;
     for (int i = 0; i < model.dof(); ++i) {
       const Stretch stretch{.joint = i,
@@ -117,6 +159,18 @@ ReasonText trajectory_defect(const TrajectoryView& trajectory, const RobotModel&
                             .quintic = trajectory.piece(k, i)};
       if (ReasonText wrong = broken_limit(stretch, model, limits); !wrong.empty()) return wrong;
     }
+  }
+  return {};
+}
+
+ReasonText missed_goal(const TrajectoryView& trajectory, const RobotModel& model,
+                       const JointVector& goal) {
+  const JointVector end = trajectory.at(trajectory.end()).q;
+  for (int i = 0; i < model.dof(); ++i) {
+    if (std::abs(end[i] - goal[i]) <= kJumpPosition) continue;
+    return ReasonText::format(
+        "the trajectory ends elsewhere than its path: joint {} at {:.4f} {} instead of {:.4f}",
+        joint_name(model, i), end[i], unit(model, i), goal[i]);
   }
   return {};
 }

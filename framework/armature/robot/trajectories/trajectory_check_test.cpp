@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a trajectory must be before it takes over: 1. it starts when and as the reference is, 2. it
-// ends at rest, 3. it keeps every limit between its knots too; what is wrong is named with joint,
-// time, value and limit.
+// ends at rest, 3. its knots ascend and no joint jumps where two pieces meet, 4. it keeps every
+// limit between its knots too, 5. it ends where it should; what is wrong is named with joint, time,
+// value and limit.
 #include "armature/robot/trajectories/trajectory_check.hpp"
 
 #include <gmock/gmock.h>
+
+#include <limits>
 
 #include "armature/robot/model/test_robots.hpp"
 
@@ -48,6 +51,13 @@ Trajectory of_one_piece(const JointState& from, const JointState& to, double dur
   return trajectory;
 }
 
+/// `first`, and `second` right behind it, whatever lies between their states.
+Trajectory of_two_pieces(Trajectory first, const Trajectory& second) {
+  first.knots.push_back(first.duration_s() + second.duration_s());
+  first.pieces.insert(first.pieces.end(), second.pieces.begin(), second.pieces.end());
+  return first;
+}
+
 class TrajectoryCheck : public ::testing::Test {
  protected:
   std::string defect(const Trajectory& trajectory, const JointState& from,
@@ -85,6 +95,64 @@ TEST_F(TrajectoryCheck, AMotionThatGoesOnAtItsEndIsADefect) {
   end.v[0] = 0.5;
   EXPECT_THAT(defect(of_one_piece(resting(0, 0), end, 3), resting(0, 0)),
               ::testing::StartsWith("the trajectory does not end at rest: 0.5 rad/s, "));
+}
+
+TEST_F(TrajectoryCheck, AJointThatJumpsBetweenTwoPiecesIsNamedWithItsTime) {
+  const JointState middle{joint_vector({0.5, -0.5}), joint_vector({0.25, 0}),
+                          joint_vector({0.25, 0})};
+  const auto through = [&](const JointState& goes_on) {
+    return defect(of_two_pieces(of_one_piece(resting(0, 0), middle, 2),
+                                of_one_piece(goes_on, resting(1, -1), 2)),
+                  resting(0, 0));
+  };
+  EXPECT_EQ(through(middle), "");
+  JointState off = middle;
+  off.q[1] += 0.25;
+  EXPECT_THAT(through(off),
+              ::testing::StartsWith("the trajectory jumps where two pieces meet, at 2.00 s: joint "
+                                    "slide jumps by 0.25 in position, "));
+  off = middle;
+  off.v[0] += 0.125;
+  EXPECT_THAT(through(off), ::testing::HasSubstr(" position, 0.125 in velocity, "));
+  off = middle;
+  off.a[1] -= 0.5;
+  EXPECT_THAT(through(off), ::testing::HasSubstr(" velocity, 0.5 in acceleration"));
+}
+
+TEST_F(TrajectoryCheck, KnotsThatDoNotAscendFromZeroAreADefect) {
+  Trajectory trajectory = of_two_pieces(of_one_piece(resting(0, 0), resting(1, 0), 3),
+                                        of_one_piece(resting(1, 0), resting(1, -1), 3));
+  ASSERT_EQ(defect(trajectory, resting(0, 0)), "");
+  const auto with_knots = [&](std::vector<double> knots) {
+    trajectory.knots = std::move(knots);
+    return defect(trajectory, resting(0, 0));
+  };
+  EXPECT_EQ(with_knots({0.5, 3, 6}), "the trajectory's first knot is at 0.5 s, not at 0");
+  EXPECT_EQ(with_knots({0, 7, 6}), "the trajectory's knots do not ascend: 6 s comes after 7 s");
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(with_knots({0, kNan, 6}),
+            "the trajectory's knots do not ascend: nan s comes after 0 s");
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(with_knots({0, 3, kInfinity}),
+            "the trajectory's knots do not ascend: inf s comes after 3 s");
+}
+
+TEST_F(TrajectoryCheck, APieceOfNoDurationIsNoDefect) {
+  EXPECT_EQ(defect(of_two_pieces(of_one_piece(resting(0, 0), resting(1, 0), 3),
+                                 hold_at(joint_vector({1, 0}), kTakeOver, 1)),
+                   resting(0, 0)),
+            "");
+}
+
+TEST_F(TrajectoryCheck, AnEndElsewhereThanAtTheGoalIsNamedWithItsJoint) {
+  const Trajectory trajectory = of_one_piece(resting(0, 0), resting(1, -1), 3);
+  const auto missed = [&](const JointVector& goal) {
+    return std::string{missed_goal(trajectory.view(), model_, goal).view()};
+  };
+  EXPECT_EQ(missed(joint_vector({1, -1})), "");
+  EXPECT_EQ(missed(joint_vector({1, -0.5})),
+            "the trajectory ends elsewhere than its path: joint slide at -1.0000 m instead of "
+            "-0.5000");
 }
 
 TEST_F(TrajectoryCheck, BrokenRatesAreNamedWithTheirLimit) {

@@ -132,8 +132,8 @@ class TrajectoryHost final : public RequestHost<msg::TrajectoryRequest, msg::Tra
     auto planned = guarded([&] { return planner_->plan(asked); });
     if (!planned) return planned;
     const MotionLimits limits{asked.max_velocity, asked.max_acceleration};
-    const ReasonText wrong =
-        trajectory_defect(planned->view(), robot_, limits, asked.from, asked.start);
+    ReasonText wrong = trajectory_defect(planned->view(), robot_, limits, asked.from, asked.start);
+    if (wrong.empty()) wrong = missed_goal(planned->view(), robot_, asked.segments.back().q.back());
     if (!wrong.empty()) return refuse(std::string{wrong.view()});
     return planned;
   }

@@ -196,6 +196,16 @@ TEST_F(TrajectoryHostTest, ATrajectoryThatBreaksALimitIsNoAnswer) {
   EXPECT_TRUE(ask(request(3)).valid_());
 }
 
+TEST_F(TrajectoryHostTest, ATrajectoryThatEndsElsewhereThanAtTheLastWaypointIsNoAnswer) {
+  TwoSeconds::overshoot = 0.125;
+  const msg::TrajectoryResponse answer = ask(request(1));
+  TwoSeconds::overshoot = 0;
+  EXPECT_FALSE(answer.valid_());
+  EXPECT_EQ(answer.reason_(),
+            "the trajectory ends elsewhere than its path: joint j1 at 2.1250 rad instead of "
+            "2.0000");
+}
+
 TEST_F(TrajectoryHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered) {
   TwoSeconds::throws = true;
   const msg::TrajectoryResponse answer = ask(request(1));

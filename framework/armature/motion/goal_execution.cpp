@@ -11,6 +11,7 @@ using State = GoalStatus::State;
 
 constexpr int kMaxAttempts = 3;                    // to plan while the arm moves
 constexpr double kStill = 1e-3;                    // [rad/s] or [m/s] that an arm tells of itself
+constexpr double kSamePlace = 1e-6;                // [rad] or [m]
 constexpr Duration kPausePatience = seconds(0.1);  // behind the start that its plan should have
 
 /// Of which a plan is made.
@@ -301,10 +302,13 @@ std::optional<PlanRequest> GoalExecution::take_request() {
 }
 
 /// Whether the reference is at the plan's start what it was when the plan was asked for, and there
-/// is time, or none is needed.
+/// is time, or none is needed: it still rests where the plan begins.
 bool GoalExecution::still_holds(const PlanAnswer& answer, Time now) {
   if (reference_.serial() != pending_->continues) return false;
-  return now <= answer.start || armature::at_rest(answer.trajectory.at(answer.start));
+  if (now <= answer.start) return true;
+  const JointState begins = answer.trajectory.at(answer.start), stands = reference_.at(now);
+  return armature::at_rest(begins) && armature::at_rest(stands) &&
+         (begins.q - stands.q).isZero(kSamePlace);
 }
 
 bool GoalExecution::take(const PlanAnswer& answer, Time now) {

@@ -93,6 +93,38 @@ TEST_F(GoalExecutionTest, APlanForAReferenceThatHasChangedIsNotTaken) {
   EXPECT_TRUE(execution_.take_request()) << "it is planned again";
 }
 
+TEST_F(GoalExecutionTest, APlanForAMotionThatHasBegunLateSinceIsMadeAgain) {
+  step_to(0.1);
+  give(goal_at(1, 0.5, 0.5, 0.5));
+  now_ = now_ + seconds(0.002);
+  ask(goal_at(2, 0, 0, 0));  // from 2 ms behind the start of the first
+  const auto request = execution_.take_request();
+  ASSERT_TRUE(request);
+  ASSERT_FALSE(at_rest(request->from));
+  now_ = now_ + seconds(0.0045);  // the first was to begin 1.5 ms ago, and begins only now
+  execution_.update(now_, MeasuredJoints{now_, home_});
+  before_ = execution_.reference().at(now_);
+  EXPECT_EQ(before_.q, home_);
+  EXPECT_FALSE(execution_.take(planned(*request), now_)) << "it would jump";
+  EXPECT_TRUE(answer()) << "it is planned again";
+  step_to(4);
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{2, State::done}));
+}
+
+TEST_F(GoalExecutionTest, ALatePlanFromARestThatTheArmHasLeftSinceIsMadeAgain) {
+  step_to(0.1);
+  give(goal_at(1, 0.5, 0.5, 0.5));
+  ask(goal_at(2, 0, 0, 0));  // from where the first begins, too
+  const auto request = execution_.take_request();
+  ASSERT_TRUE(request);
+  ASSERT_TRUE(at_rest(request->from));
+  step_to(0.5);
+  EXPECT_FALSE(execution_.take(planned(*request), now_)) << "it would jump";
+  EXPECT_TRUE(answer()) << "it is planned again";
+  step_to(4);
+  EXPECT_EQ(history().back(), (std::pair<std::uint64_t, State>{2, State::done}));
+}
+
 TEST_F(GoalExecutionTest, AnArmThatDoesNotFollowFailsTheGoalThatIsBeingPlannedToo) {
   step_to(0.1);
   give(goal_at(1, 1, 1, 1));

@@ -47,6 +47,7 @@ void Reference::splice(const TrajectoryView& next, SampleRef sample) {
 }
 
 void Reference::postpone_last(Time start) {
+  ++serial_;
   Entry& last = entries_[count_ - 1];
   (last.is_own ? last.own.start : last.elsewhere.start) = start;
 }

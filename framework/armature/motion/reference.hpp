@@ -35,6 +35,7 @@ class Reference {
   void splice(const TrajectoryView& next, SampleRef sample);
 
   /// Lets the trajectory spliced last, which starts at rest, take over later than it was made for.
+  /// Counts as another one: a plan that continues it at the old times would jump.
   void postpone_last(Time start);
 
   /// Stops at the place of the trajectory that holds where that place can be reached soonest: time

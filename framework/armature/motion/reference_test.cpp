@@ -125,5 +125,14 @@ TEST(Reference, CountsWhatTakesOverSoThatAPlanCanSayWhatItContinues) {
   EXPECT_GT(reference.serial(), first);
 }
 
+TEST(Reference, CountsATrajectoryThatTakesOverLaterAsAnotherOne) {
+  Reference reference;
+  reference.start(Eigen::Vector3d::Zero(), Time{0});
+  reference.splice(move(reference.at(Time{500}), kThere, Time{500}, 1));
+  const std::uint64_t before = reference.serial();
+  reference.postpone_last(Time{600});
+  EXPECT_GT(reference.serial(), before) << "a plan made for the old times would jump";
+}
+
 }  // namespace
 }  // namespace armature

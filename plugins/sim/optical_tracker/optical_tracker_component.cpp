@@ -70,6 +70,7 @@ class OpticalTracker final : public Component {
             sight_of(parameters_, parameters_.flange_hidden, setup.params(), "flange_hidden_s")},
         jaw_sight_{sight_of(parameters_, parameters_.jaw_hidden, setup.params(), "jaw_hidden_s")},
         jaw_shift_{vector_of(parameters_.jaw_shift)},
+        stand_shift_{vector_of(parameters_.stand_shift)},
         random_{setup.seed()},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         flange_{setup.output<msg::TrackedBody>("flange")},
@@ -93,6 +94,9 @@ class OpticalTracker final : public Component {
     if (elapsed_s < 0) return;  // the shutter had not been open yet
     if (jaw_shift_ != Eigen::Vector3d::Zero() && elapsed_s >= parameters_.jaw_shift_at) {
       shift_jaw(now);
+    }
+    if (stand_shift_ != Eigen::Vector3d::Zero() && elapsed_s >= parameters_.stand_shift_at) {
+      shift_stand(now);
     }
     look(jaw_, "jaw", room_.chain.tracker_T_patient, jaw_sight_, elapsed_s, light);
     const bool driver_follows = !room_.implants.empty();
@@ -152,6 +156,16 @@ class OpticalTracker final : public Component {
     tell_truth(now);
   }
 
+  /// Arm and jaw stay where they are.
+  void shift_stand(Time now) {
+    GuidedChain& chain = room_.chain;
+    const Isometry3d base_T_jaw = chain.base_T_tracker * chain.tracker_T_patient;
+    chain.base_T_tracker.pretranslate(stand_shift_);
+    chain.tracker_T_patient = chain.base_T_tracker.inverse() * base_T_jaw;
+    stand_shift_.setZero();
+    tell_truth(now);
+  }
+
   Isometry3d in_hand(const Eigen::Vector3d& tip, double elapsed_s) const {
     return turned_about_tip(tip, room_.chain.tracker_T_patient.translation(),
                             parameters_.pivot_cone, elapsed_s);
@@ -201,7 +215,7 @@ class OpticalTracker final : public Component {
   FrameBuffer history_;
   std::vector<Eigen::Vector3d> spheres_;
   LineOfSight flange_sight_, jaw_sight_;
-  Eigen::Vector3d jaw_shift_;  // still to come
+  Eigen::Vector3d jaw_shift_, stand_shift_;  // still to come
   std::mt19937_64 random_;
   std::optional<Time> start_;
   Input<msg::JointState> measured_js_;

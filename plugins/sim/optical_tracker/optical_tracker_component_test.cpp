@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The operating room on its topics: 1. plan, markers and truth once, 2. a body on a moving flange
 // where it was when the light was caught, 3. the drill in the hand first, 4. what is not seen, and
-// why, 5. a jaw that moves, 6. what it refuses.
+// why, 5. a jaw that moves, and a tracker that is knocked, 6. what it refuses.
 #include <gtest/gtest.h>
 
 #include "armature/calibration/pivot.hpp"
@@ -155,6 +155,31 @@ TEST_F(OpticalTrackerTest, AJawThatMovesIsToldAnewInItsOwnFrame) {
   EXPECT_LT((truth().tracker_T_patient.matrix() - after.matrix()).norm(), 1e-12);
   look(2.5);
   EXPECT_LT((to_eigen(last("jaw").pose_()).matrix() - after.matrix()).norm(), 1e-12) << "once";
+}
+
+TEST_F(OpticalTrackerTest, ATrackerThatIsKnockedAsideSeesBothBodiesElsewhereAndTheJawHasNotMoved) {
+  start("sphere_error_mm: 0, pivot_s: 0, stand_shift_mm: [0, 20, -5], stand_shift_at_s: 1");
+  look(0.5);
+  const GuidedChain before = truth();
+  look(1.5);
+  const GuidedChain after = truth();
+  EXPECT_LT((after.base_T_tracker.translation() - before.base_T_tracker.translation() -
+             Vector3d{0, 0.02, -0.005})
+                .norm(),
+            1e-12);
+  const Isometry3d jaw = before.base_T_tracker * before.tracker_T_patient;
+  const auto seen_from = [](const GuidedChain& chain, const msg::TrackedBody& body) {
+    return Isometry3d{chain.base_T_tracker * to_eigen(body.pose_())};
+  };
+  EXPECT_LT((seen_from(after, last("jaw")).matrix() - jaw.matrix()).norm(), 1e-12);
+  const msg::TrackedBody flange = last("flange");
+  const double light_s = to_seconds(stamp_of(flange.header_().stamp_()) - Time{});
+  const Isometry3d body =
+      forward_kinematics(robot_, arm_at(light_s), *robot_.find_frame("flange")) *
+      after.flange_T_body;
+  EXPECT_LT((seen_from(after, flange).matrix() - body.matrix()).norm(), 1e-9);
+  look(2.5);
+  EXPECT_TRUE(room_->take<msg::TFMessage>("truth").empty()) << "once";
 }
 
 TEST_F(OpticalTrackerTest, WhatIsNoRoomIsRefused) {

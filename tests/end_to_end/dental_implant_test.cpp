@@ -204,6 +204,21 @@ TEST(DentalImplant, AJawThatMovesWhileItsPlaceIsAveragedIsNotDrilled) {
                  " mm while its place was averaged, 1 mm are allowed");
 }
 
+/// The hand-eye calibration ends at 33.06 s; the jaw is seen for its place from 33.08 s on. Whoever
+/// does not look drills as far off as the tracker was knocked, and tells of 0.43 mm.
+TEST(DentalImplant, ATrackerThatIsKnockedBehindItsCalibrationIsFoundBeforeTheDrillSetsOut) {
+  const std::string shift = kTracker + "stand_shift_mm=[0, 20, 0]",
+                    at = kTracker + "stand_shift_at_s=33.07";
+  expect_refused({shift, at}, "the tracker sees the body on the flange 20.0");
+  const DeploymentRun unwatched = implant({shift, at, kTask + "max_flange_error_mm=100"});
+  EXPECT_NEAR(unwatched.figure("site_error_mm"), 20, 1) << unwatched.text();
+}
+
+TEST(DentalImplant, ATrackerThatIsKnockedWhileItDrillsStopsTheArm) {
+  expect_refused({kTracker + "stand_shift_mm=[0, 20, 0]", kTracker + "stand_shift_at_s=42"},
+                 "the jaw has moved by ");
+}
+
 TEST(DentalImplant, OfOneSiteTheErrorIsToldAndWhyNoTurnIs) {
   const DeploymentRun run =
       implant({kTracker + "sites_mm=[10, -5, 12]", kTracker + "sites_rpy_deg=[3, 11, 18]"});

@@ -7,17 +7,6 @@
 #include "calibration_poses.hpp"
 
 namespace armature::task::implant {
-namespace {
-
-// [m], [rad]: an arm that moved by less from the first sample to the last stood still.
-constexpr double kStill = 2e-5, kStillRad = 1e-4;
-
-bool moved(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  const Eigen::Isometry3d way = from.inverse() * to;
-  return way.translation().norm() > kStill || Eigen::AngleAxisd{way.linear()}.angle() > kStillRad;
-}
-
-}  // namespace
 
 CalibrationRun::CalibrationRun(const Parameters& parameters, const RobotModel& robot)
     : parameters_{parameters}, watch_{"the flange", seconds(parameters.timeout)} {
@@ -43,7 +32,7 @@ void CalibrationRun::see(const Sighting& sighting, const Eigen::Isometry3d& base
   if (!arrived_ || sighting.stamp < *arrived_) return;
   watch_.see(sighting);
   if (!sighting.tracker_T_body) return;
-  if (average_.count() == 0 || moved(base_T_flange_, base_T_flange)) {
+  if (average_.count() == 0 || has_moved(base_T_flange_, base_T_flange)) {
     average_.clear();
     base_T_flange_ = base_T_flange;
   }

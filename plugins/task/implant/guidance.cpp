@@ -10,6 +10,12 @@ namespace armature::task::implant {
 
 using Eigen::Isometry3d;
 
+namespace {
+
+constexpr int kFlangeSamples = 10;  // as of the jaw: one by itself errs too much at the tip
+
+}  // namespace
+
 Guidance::Guidance(const Parameters& parameters, const RobotModel& robot,
                    const Eigen::Matrix3d& flange_R_tool)
     : parameters_{parameters},
@@ -18,7 +24,8 @@ Guidance::Guidance(const Parameters& parameters, const RobotModel& robot,
       calibration_{parameters, robot},
       flange_watch_{"the flange", seconds(parameters.timeout)},
       jaw_watch_{"the jaw", seconds(parameters.timeout)},
-      jaw_{parameters} {
+      jaw_{parameters},
+      flange_{parameters} {
   chain_.flange_R_tool = flange_R_tool;
 }
 
@@ -51,11 +58,33 @@ void Guidance::see_driver_in_hand(const Sighting& sighting) {
   if (step_ == Step::pivot && drill_tip_) driver_.see(sighting);
 }
 
-void Guidance::see_flange(const Sighting& sighting,
-                          const std::optional<Isometry3d>& base_T_flange) {
+Expected<void> Guidance::see_flange(const Sighting& sighting,
+                                    const std::optional<Isometry3d>& base_T_flange, bool must_agree,
+                                    Time now) {
   flange_watch_.see(sighting);
-  if (step_ == Step::hand_eye && base_T_flange) calibration_.see(sighting, *base_T_flange);
+  if (!base_T_flange) return {};
+  if (step_ == Step::hand_eye) calibration_.see(sighting, *base_T_flange);
+  if (step_ == Step::place) flange_.see(sighting, *base_T_flange, now);
+  if (step_ != Step::complete || !must_agree) return {};
+  flange_.see(sighting, *base_T_flange, now);
+  if (flange_.samples() < kFlangeSamples) return {};
+  const auto agrees = check_flange(false);
+  flange_.forget();
+  return agrees;
 }
+
+Expected<void> Guidance::check_flange(bool at_bores) const {
+  std::vector<Eigen::Vector3d> points{flange_.base_T_body() * chain_.tip};
+  if (at_bores) {
+    const Isometry3d base_T_jaw = chain_.base_T_tracker * jaw_.average().mean();
+    for (const Eigen::Vector3d& end : jaw_.ends()) points.push_back(base_T_jaw * end);
+  }
+  if (const auto wrong = flange_.defect(points)) return refuse(*wrong);
+  return {};
+}
+
+/// While the jaw is located.
+int Guidance::flange_samples() const { return std::min(kFlangeSamples, parameters_.jaw_samples); }
 
 Expected<void> Guidance::see_jaw(const Sighting& sighting, bool must_rest) {
   jaw_watch_.see(sighting);
@@ -91,7 +120,8 @@ Expected<void> Guidance::see_registration(const RegisteredJaw& jaw, Time now) {
     }
   }
   jaw_.locate(std::move(ends));
-  jaw_watch_.begin(now);
+  flange_.forget();
+  begin_to_guard(now);
   step_ = Step::place;
   return {};
 }
@@ -110,9 +140,8 @@ Expected<void> Guidance::update(Time now) {
       if (!calibration_.destination()) return finish_hand_eye();
       return {};
     case Step::place:
-      if (jaw_.located()) return finish_place();
-      if (const auto blind = jaw_watch_.blind(now)) return refuse(*blind);
-      return {};
+      if (jaw_.located() && flange_.samples() >= flange_samples()) return finish_place();
+      return guard(now);
     case Step::registration:
     case Step::complete:
       return {};
@@ -152,6 +181,7 @@ Expected<void> Guidance::finish_hand_eye() {
                               1e3 * found->residual_rms_m, 1e3 * parameters_.max_hand_eye_rms));
   }
   hand_eye_ = *found;
+  flange_.calibrate(hand_eye_);
   chain_.flange_T_body = hand_eye_.flange_T_body;
   chain_.base_T_tracker = hand_eye_.base_T_tracker;
   std::string line =
@@ -164,6 +194,9 @@ Expected<void> Guidance::finish_hand_eye() {
 }
 
 Expected<void> Guidance::finish_place() {
+  const auto agrees = check_flange(true);
+  flange_.forget();
+  if (!agrees) return agrees;
   chain_.tracker_T_patient = jaw_.average().mean();
   auto drilling = forecast(std::vector(sites_.size(), chain_), *drill_tip_, "site");
   if (!drilling) return refuse(drilling.error().text);
@@ -199,7 +232,8 @@ Expected<std::vector<ErrorForecast>> Guidance::forecast(const std::vector<Guided
   return forecasts;
 }
 
-void Guidance::register_again() {
+void Guidance::register_again(const std::string& why) {
+  if (!why.empty()) news_.push_back(why + ": it is registered again");
   forecasts_.clear();
   step_ = Step::registration;
 }

@@ -11,6 +11,7 @@
 #include "armature/values/expected.hpp"
 #include "calibration_run.hpp"
 #include "error_forecast.hpp"
+#include "flange_place.hpp"
 #include "jaw_place.hpp"
 #include "pivot_run.hpp"
 #include "sighting.hpp"
@@ -46,15 +47,19 @@ class Guidance {
   void see_handpiece() { has_handpiece_ = true; }
   void see_drill_in_hand(const Sighting& sighting);
   void see_driver_in_hand(const Sighting& sighting);
-  void see_flange(const Sighting& sighting, const std::optional<Eigen::Isometry3d>& base_T_flange);
+  /// With where the flange is as the arm says at `now`. It must be where the calibration has it
+  /// while the jaw is located, and later where it `must_agree`: a tool is on its way.
+  Expected<void> see_flange(const Sighting& sighting,
+                            const std::optional<Eigen::Isometry3d>& base_T_flange, bool must_agree,
+                            Time now);
   /// The jaw must not move while it is located, and later where it `must_rest`: a tool is on its
   /// way to it.
   Expected<void> see_jaw(const Sighting& sighting, bool must_rest);
   Expected<void> see_registration(const RegisteredJaw& jaw, Time now);
   /// Goes on to the next step where the present one is done.
   Expected<void> update(Time now);
-  /// Back to the registration, with the calibrations as they are.
-  void register_again();
+  /// Back to the registration, with the calibrations as they are. `why` is told, or "".
+  void register_again(const std::string& why);
   /// From now on the jaw and the flange have to be seen.
   void begin_to_guard(Time now);
   /// Which of them is not seen, and why.
@@ -81,6 +86,10 @@ class Guidance {
   Expected<void> finish_pivot();
   Expected<void> finish_hand_eye();
   Expected<void> finish_place();
+  /// Whether the body on the flange is where the calibration has it, at the drill's tip and, where
+  /// the jaw has been located meanwhile, at the ends of the bores.
+  Expected<void> check_flange(bool at_bores) const;
+  int flange_samples() const;
   /// How well every site is known, for a tool whose tip was found so, or why that is not enough.
   Expected<std::vector<ErrorForecast>> forecast(const std::vector<GuidedChain>& chains,
                                                 const Pivot& pivot, const char* tool);
@@ -97,6 +106,7 @@ class Guidance {
   HandEye hand_eye_;
   RegisteredJaw registered_;
   JawPlace jaw_;
+  FlangePlace flange_;
   GuidedChain chain_;
   std::vector<ErrorForecast> forecasts_;
   std::vector<std::string> news_;

@@ -57,13 +57,21 @@ void Implant::see_driver_in_hand(const Sighting& sighting) {
   if (phase_ == Phase::pivoting) guidance_.see_driver_in_hand(sighting);
 }
 
-void Implant::see_flange(const Sighting& sighting) {
-  guidance_.see_flange(sighting, phase_ == Phase::calibrating ? base_T_flange_ : std::nullopt);
+void Implant::see_flange(const Sighting& sighting, Time now) {
+  const auto agrees = guidance_.see_flange(sighting, base_T_flange_, watches_the_jaw(), now);
+  if (!agrees) refuse(agrees.error().text);
 }
 
 void Implant::see_jaw(const Sighting& sighting) {
   const auto rests = guidance_.see_jaw(sighting, watches_the_jaw());
-  if (!rests) refuse(rests.error().text);
+  if (!rests) see_jaw_moved(rests.error().text);
+}
+
+void Implant::see_jaw_moved(const std::string& why) {
+  const bool nothing_set_out =
+      phase_ == Phase::locating || (phase_ == Phase::approaching && !set_out_);
+  if (procedure_.auto_confirm() || !nothing_set_out) return refuse(why);
+  register_again(why);
 }
 
 void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
@@ -102,7 +110,7 @@ void Implant::hear(const GoalReport& report, Time now) {
 
 void Implant::update(Time now) {
   if (phase_ == Phase::refused || phase_ == Phase::held) return;
-  if (base_T_flange_) {
+  if (base_T_flange_ && !led_out_anyhow_) {
     const auto wrong = thread_watch_.trouble(tool(), now);
     if (wrong) return refuse(pass().name + ": " + *wrong);
   }

@@ -57,7 +57,7 @@ class Implant {
   void see_handpiece(double angle, Time now);
   void see_drill_in_hand(const Sighting& sighting);
   void see_driver_in_hand(const Sighting& sighting);
-  void see_flange(const Sighting& sighting);
+  void see_flange(const Sighting& sighting, Time now);
   void see_jaw(const Sighting& sighting);
   void see_registration(const RegisteredJaw& jaw, Time now);
   void see_refused_registration(const std::string& reason) { refuse(reason); }
@@ -94,7 +94,7 @@ class Implant {
   enum Step : std::size_t { kPivot, kCalibration, kRegistration, kApproach };
   Expected<void> go_back(Time now);
   Expected<void> abort();
-  void register_again();
+  void register_again(const std::string& why);
   void come_to_pass(std::size_t pass, Time now);
   /// For the approach, or for the pass, once it may.
   void set_out(Time now);
@@ -121,6 +121,8 @@ class Implant {
   /// The motion that begins the step in which the present one is.
   std::size_t first_of_step() const;
   Eigen::Vector3d tool() const { return (*base_T_flange_ * flange_T_file_tool_).translation(); }
+  /// While nothing has set out yet an operator is asked again, about a new registration.
+  void see_jaw_moved(const std::string& why);
   /// For good; an arm that is on its way holds. A tool that has set out towards the jaw is held
   /// where there is an operator, and he leads it out.
   void refuse(const std::string& why);
@@ -141,6 +143,7 @@ class Implant {
   bool set_out_ = false;               // for the approach, or for the pass
   bool turned_ = false;                // going back or aborting: the way back is under way
   bool homing_ = false;                // led out: on the way to where the approach began
+  bool led_out_anyhow_ = false;        // aborted while it was held, whatever the handpiece does
   std::string trouble_;
 };
 

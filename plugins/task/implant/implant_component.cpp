@@ -165,7 +165,7 @@ class ImplantComponent final : public Component {
       task_.see_drill_in_hand(pivot_[i]);
       task_.see_driver_in_hand(pivot_.as(i, parameters_.driver_body));
     }
-    for (std::size_t i = 0; i < flange_.size(); ++i) task_.see_flange(flange_[i]);
+    for (std::size_t i = 0; i < flange_.size(); ++i) task_.see_flange(flange_[i], now);
     for (std::size_t i = 0; i < jaw_.size(); ++i) task_.see_jaw(jaw_[i]);
     registration_.listen([&](const msg::RegistrationResponse& response) {
       if (response.valid_()) {

@@ -166,9 +166,39 @@ TEST_F(OperatedImplantTest, ADrillThatBreaksDownInTheBoneIsHeldUntilAnAbortLeads
 }
 
 TEST_F(OperatedImplantTest, WhatIsWrongBeforeTheDrillHasSetOutIsRefused) {
-  chain_.tracker_T_patient = chain_.tracker_T_patient * Eigen::Translation3d{0.01, 0, 0};
-  wait(0.5);
+  see_jaw_ = false;
+  wait(1);
   EXPECT_EQ(task_.phase(), Phase::refused);
+}
+
+TEST_F(OperatedImplantTest, AJawThatMovesWhileTheApproachIsAskedForIsRegisteredAgain) {
+  task_.take_news();
+  const std::size_t until_then = goals_.size();
+  chain_.tracker_T_patient = chain_.tracker_T_patient * Eigen::Translation3d{0.01, 0, 0};
+  for (int i = 0; i < 50 && !task_.wants_registration(); ++i) step();
+  ASSERT_TRUE(task_.wants_registration()) << task_.trouble();
+  const auto news = task_.take_news();
+  ASSERT_EQ(news.size(), 1u);
+  EXPECT_EQ(news[0], "the jaw has moved by 10.00 mm, 1 mm are allowed: it is registered again");
+  EXPECT_NE(say("confirm", "approach"), "") << "what was asked for before does not count";
+  go_to(Phase::approaching);
+  wait(1);
+  EXPECT_EQ(asked(), "approach") << "it is asked for anew";
+  EXPECT_EQ(goals_.size(), until_then) << "nothing has moved";
+  confirm("approach");
+  confirm("site 1");
+  expect_tip_at(goals_.back().pose, 0);
+}
+
+TEST_F(OperatedImplantTest, AJawThatGoesOnMovingIsRegisteredAgainUntilItRests) {
+  for (int i = 0; i < 100; ++i) {
+    chain_.tracker_T_patient.translate(Vector3d{0, 0.001, 0});
+    step();
+    if (task_.wants_registration()) task_.see_registration(registered(), now());
+  }
+  EXPECT_FALSE(task_.procedure().over()) << task_.trouble();
+  go_to(Phase::approaching);
+  EXPECT_EQ(asked(), "approach");
 }
 
 }  // namespace

@@ -188,6 +188,33 @@ TEST_F(OperatedPlacingTest, AbortedInTheThreadItIsTurnedOutAndTheArmGoesToWhereI
   EXPECT_FALSE(task_.thread());
 }
 
+TEST_F(OperatedPlacingTest, AnAbortLeadsOutAnImplantWhoseHandpieceIsSilent) {
+  stop_in_the_thread();
+  handpiece_ = false;
+  go_to(Phase::held);
+  const std::string why = task_.trouble();
+  EXPECT_EQ(why.substr(0, 43), "implant 1: the handpiece has not told for 0") << why;
+  wait(1);
+  EXPECT_EQ(say("abort"), "");
+  go_to(Phase::aborted);
+  EXPECT_LT((goals_.back().pose.position - goals_[7].pose.position).norm(), 1e-9);
+}
+
+TEST_F(OperatedPlacingTest, AHandpieceThatFallsSilentWhileItTurnsOutHoldsTheImplantOnce) {
+  stop_in_the_thread();
+  EXPECT_EQ(say("abort"), "");
+  step();
+  handpiece_ = false;
+  done_ = 0;  // on its way out
+  for (int i = 0; i < 50 && task_.phase() == Phase::aborting; ++i) {
+    done_ = 0;
+    step();
+  }
+  EXPECT_EQ(task_.phase(), Phase::held) << "nobody has said yet that it may come out unturned";
+  EXPECT_EQ(say("abort"), "");
+  go_to(Phase::aborted);
+}
+
 TEST_F(OperatedPlacingTest, APlacedImplantStays) {
   for (int i = 0; i < 1000 && asked().empty(); ++i) step();
   EXPECT_EQ(asked(), "implant 2");

@@ -66,7 +66,7 @@ class ImplantTest : public testing::Test {
     if (done_) task_.hear({.goal_id = done_, .state = Report::done}, now());
     if (see_drill_) task_.see_drill_in_hand(in_hand(chain_.tip));
     if (see_driver_) task_.see_driver_in_hand(in_hand(driver_tip_));
-    if (see_flange_) task_.see_flange(flange());
+    if (see_flange_) task_.see_flange(flange(), now());
     if (see_jaw_) task_.see_jaw({now(), chain_.tracker_T_patient});
     task_.update(now());
     if (const auto goal = task_.outgoing_goal(now())) drive(*goal);

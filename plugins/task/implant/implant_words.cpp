@@ -37,7 +37,7 @@ Expected<void> Implant::go_back(Time now) {
   procedure_.turn_back();
   goal_.pause();
   if (again) {
-    register_again();
+    register_again("");
   } else if (!set_out_) {
     --pass_;
     come_to_pass(first_of_step(), now);  // into the site before
@@ -48,8 +48,8 @@ Expected<void> Implant::go_back(Time now) {
   return {};
 }
 
-void Implant::register_again() {
-  guidance_.register_again();
+void Implant::register_again(const std::string& why) {
+  guidance_.register_again(why);
   phase_ = Phase::registering;
   procedure_.enter(kRegistration);
 }
@@ -63,6 +63,7 @@ Expected<void> Implant::abort() {
     if (!turned_ || phase_ != Phase::going_back) goal_.pause();
     set_out_ = true;
     trouble_.clear();
+    led_out_anyhow_ = phase_ == Phase::held;
     phase_ = Phase::aborting;
     turned_ = false;
     return {};

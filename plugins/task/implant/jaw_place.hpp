@@ -24,6 +24,8 @@ class JawPlace {
   std::optional<std::string> see(const Eigen::Isometry3d& tracker_T_jaw);
   bool located() const { return average_.count() >= parameters_.jaw_samples; }
   const PoseAverage& average() const { return average_; }
+  /// Of the bores, in the jaw's frame [m].
+  const std::vector<Eigen::Vector3d>& ends() const { return ends_; }
   /// Later: the same, against where it was.
   std::optional<std::string> guard(const Eigen::Isometry3d& tracker_T_jaw);
 

@@ -4,25 +4,52 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <memory>
 
 namespace armature {
 
-Expected<std::string> inflated(std::string_view gzip, std::size_t max_bytes) {
+namespace {
+
+/// Gives zlib the next piece of `left` when it has used up the one before.
+void feed(uInt& available, std::size_t& left, std::size_t piece_bytes) {
+  if (available > 0) return;
+  available = static_cast<uInt>(std::min(left, piece_bytes));
+  left -= available;
+}
+
+}  // namespace
+
+Expected<std::string> inflated(std::string_view gzip, std::size_t max_bytes,
+                               std::size_t piece_bytes) {
   constexpr int kGzip = 16;  // what zlib adds to its window's bits for gzip's header
   z_stream stream{};
   if (inflateInit2(&stream, MAX_WBITS + kGzip) != Z_OK) return refuse("zlib cannot begin");
   const std::unique_ptr<z_stream, int (*)(z_stream*)> end{&stream, inflateEnd};
   std::string bytes(max_bytes, '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(gzip.data()));
-  stream.avail_in = static_cast<uInt>(gzip.size());
   stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
-  stream.avail_out = static_cast<uInt>(bytes.size());
-  const int status = inflate(&stream, Z_FINISH);
-  if (status == Z_DATA_ERROR || status == Z_NEED_DICT) {
-    return refuse(fmt::format("its gzip data are damaged: {}", stream.msg ? stream.msg : "?"));
+  std::size_t unread = gzip.size(), unwritten = max_bytes;
+  int status = Z_OK;
+  while (status == Z_OK) {
+    feed(stream.avail_in, unread, piece_bytes);
+    feed(stream.avail_out, unwritten, piece_bytes);
+    status = inflate(&stream, Z_NO_FLUSH);
   }
-  bytes.resize(max_bytes - stream.avail_out);
+  const std::size_t written = max_bytes - unwritten - stream.avail_out;
+  // Nothing is left of the input, or no room.
+  const bool is_stuck = status == Z_BUF_ERROR;
+  if (status != Z_STREAM_END && !is_stuck) {
+    return refuse(fmt::format("its gzip data are damaged after {} bytes: {}", written,
+                              stream.msg ? stream.msg : zError(status)));
+  }
+  if (is_stuck && written < max_bytes) {
+    return refuse(
+        fmt::format("its gzip data end within the stream, after {} of {} bytes: is it "
+                    "truncated?",
+                    written, max_bytes));
+  }
+  bytes.resize(written);
   return bytes;
 }
 

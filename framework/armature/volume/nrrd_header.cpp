@@ -18,19 +18,71 @@
 namespace armature {
 namespace {
 
-using Fields = std::map<std::string, std::string>;
+struct Field {
+  std::string name, value;
+  int line = 0;
+};
 
-/// "key: value" lines up to the empty one.
-Fields fields_of(std::istream& in) {
+/// By their names in small letters without blanks: "data file" may be written "datafile".
+using Fields = std::map<std::string, Field>;
+
+std::string in_small_letters(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return std::tolower(c); });
+  return text;
+}
+
+std::string key_of(const std::string& name) {
+  std::string key = in_small_letters(name);
+  std::erase(key, ' ');
+  return key;
+}
+
+std::string place_of(const Field& field) {
+  return fmt::format("line {}: its '{}' is '{}'", field.line, field.name, field.value);
+}
+
+/// "name: value" lines up to the empty one, behind the first line of the file. "key:=value" says
+/// nothing of the voxels.
+Expected<Fields> fields_of(std::istream& in) {
   Fields fields;
+  int number = 1;
   for (std::string line; std::getline(in, line);) {
+    ++number;
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty()) break;
-    const auto colon = line.find(": ");
-    if (line[0] == '#' || colon == std::string::npos) continue;
-    fields[line.substr(0, colon)] = line.substr(colon + 2);
+    const auto colon = line.find(':');
+    if (line[0] == '#' || colon == std::string::npos || !line.substr(colon).starts_with(": ")) {
+      continue;
+    }
+    Field field{line.substr(0, colon), line.substr(colon + 2), number};
+    const auto [before, is_new] = fields.emplace(key_of(field.name), field);
+    if (is_new) continue;
+    return refuse(fmt::format("line {}: '{}' is there twice, in line {} as well: which one counts?",
+                              number, field.name, before->second.line));
   }
   return fields;
+}
+
+/// Fields that would give voxels another place or value, and are not read. Nothing is ignored that
+/// changes what a volume means.
+Expected<void> refuse_what_is_not_read(const Fields& fields) {
+  if (const auto file = fields.find("datafile"); file != fields.end()) {
+    return refuse(fmt::format("line {}: its voxels are in another file, which is not read",
+                              file->second.line));
+  }
+  for (const char* skip : {"byteskip", "lineskip"}) {
+    const auto found = fields.find(skip);
+    if (found == fields.end() || found->second.value == "0") continue;
+    return refuse(place_of(found->second) +
+                  "; only voxels that begin right behind the header are read");
+  }
+  for (const char* scale : {"oldmin", "oldmax"}) {
+    const auto found = fields.find(scale);
+    if (found == fields.end()) continue;
+    return refuse(place_of(found->second) +
+                  "; only voxels that are Hounsfield units themselves are read");
+  }
+  return {};
 }
 
 std::optional<Eigen::Vector3d> three_numbers(std::istream& in) {
@@ -53,18 +105,35 @@ std::istringstream numbers_in(std::string text) {
 }
 
 /// What takes the file's axes to LPS, or nothing when the space is another one.
-std::optional<Eigen::Vector3d> signs_of(std::string space) {
-  std::ranges::transform(space, space.begin(), [](unsigned char c) { return std::tolower(c); });
+std::optional<Eigen::Vector3d> signs_of(const std::string& written) {
+  const std::string space = in_small_letters(written);
   if (space == "left-posterior-superior" || space == "lps") return Eigen::Vector3d{1, 1, 1};
   if (space == "right-anterior-superior" || space == "ras") return Eigen::Vector3d{-1, -1, 1};
   if (space == "left-anterior-superior" || space == "las") return Eigen::Vector3d{1, -1, 1};
   return std::nullopt;
 }
 
+/// Lengths are millimetres, said or not.
+Expected<void> check_units(const Fields& fields) {
+  const auto units = fields.find("spaceunits");
+  if (units == fields.end()) return {};
+  std::string text = in_small_letters(units->second.value);
+  std::ranges::replace(text, '"', ' ');
+  std::istringstream words{text};
+  int count = 0;
+  bool all_mm = true;
+  for (std::string word; words >> word; ++count) {
+    all_mm = all_mm && (word == "mm" || word == "millimeter" || word == "millimeters" ||
+                        word == "millimetre" || word == "millimetres");
+  }
+  if (all_mm && count == 3) return {};
+  return refuse(place_of(units->second) + "; three times \"mm\" is read");
+}
+
 Expected<VolumeGeometry> geometry_of(const Fields& fields) {
   const auto field = [&](const char* key) {
     const auto found = fields.find(key);
-    return found == fields.end() ? std::string{} : found->second;
+    return found == fields.end() ? std::string{} : found->second.value;
   };
   if (field("dimension") != "3") return refuse("it has not three axes");
   std::istringstream sizes{field("sizes")};
@@ -87,8 +156,7 @@ Expected<VolumeGeometry> geometry_of(const Fields& fields) {
                     "right-anterior-superior",
                     field("space")));
   }
-  auto directions = numbers_in(field("space directions")),
-       origin = numbers_in(field("space origin"));
+  auto directions = numbers_in(field("spacedirections")), origin = numbers_in(field("spaceorigin"));
   std::array<Eigen::Vector3d, 3> steps;
   for (Eigen::Vector3d& step : steps) {
     const auto read = three_numbers(directions);
@@ -97,6 +165,9 @@ Expected<VolumeGeometry> geometry_of(const Fields& fields) {
   }
   const auto first = three_numbers(origin);
   if (!first) return refuse("it has no 'space origin'");
+  if (!first->allFinite()) {
+    return refuse(place_of(fields.at("spaceorigin")) + ", which is no place");
+  }
   if (auto wrong = set_axes(steps, geometry)) return refuse(std::move(*wrong));
   geometry.origin = 1e-3 * first->cwiseProduct(*signs);
   return geometry;
@@ -108,23 +179,28 @@ Expected<NrrdHeader> read_nrrd_header(std::istream& in) {
   std::string magic;
   std::getline(in, magic);
   if (!magic.starts_with("NRRD000")) return refuse("it is no NRRD file");
-  const Fields fields = fields_of(in);
+  const auto fields = fields_of(in);
+  if (!fields) return tl::unexpected{fields.error()};
   for (const char* key : {"type", "encoding", "dimension", "sizes", "space"}) {
-    if (!fields.contains(key)) return refuse(fmt::format("its header has no '{}'", key));
+    if (!fields->contains(key)) return refuse(fmt::format("its header has no '{}'", key));
   }
-  if (fields.contains("data file") || fields.contains("datafile")) {
-    return refuse("its voxels are in another file, which is not read");
-  }
-  auto geometry = geometry_of(fields);
+  if (auto read = refuse_what_is_not_read(*fields); !read) return tl::unexpected{read.error()};
+  if (auto read = check_units(*fields); !read) return tl::unexpected{read.error()};
+  auto geometry = geometry_of(*fields);
   if (!geometry) return tl::unexpected{geometry.error()};
-  NrrdHeader header{.geometry = *geometry, .type = fields.at("type")};
-  const std::string& encoding = fields.at("encoding");
+  NrrdHeader header{.geometry = *geometry, .type = fields->at("type").value};
+  const std::string& encoding = fields->at("encoding").value;
   header.is_compressed = encoding == "gzip" || encoding == "gz";
   if (!header.is_compressed && encoding != "raw") {
     return refuse(fmt::format("its encoding is '{}'; raw and gzip are read", encoding));
   }
-  const auto endian = fields.find("endian");
-  header.big_endian = endian != fields.end() && endian->second == "big";
+  const auto endian = fields->find("endian");
+  if (endian == fields->end()) return header;
+  const std::string order = in_small_letters(endian->second.value);
+  header.big_endian = order == "big";
+  if (!header.big_endian && order != "little") {
+    return refuse(place_of(endian->second) + ", not big or little");
+  }
   return header;
 }
 

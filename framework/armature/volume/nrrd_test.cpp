@@ -111,7 +111,9 @@ TEST_F(Nrrd, ThatIsTruncatedOrHoldsNoNumbersIsRefusedByName) {
   EXPECT_EQ(refusal(), "it ends after 13 of 16 bytes of voxels: is it truncated?");
   const std::string zip = gzipped(eight_);
   write(header("short", "encoding: gzip\n"), zip.substr(0, zip.size() - 14));
-  EXPECT_NE(refusal().find(" of 16 bytes of voxels: is it truncated?"), std::string::npos);
+  EXPECT_NE(refusal().find(" of 16 bytes: is it truncated?"), std::string::npos) << refusal();
+  write(header("short", "encoding: gzip\n"), gzipped(eight_.substr(0, 14)));
+  EXPECT_EQ(refusal(), "it ends after 14 of 16 bytes of voxels: is it truncated?");
   write(header("float", "encoding: raw\n"), bytes<float>({1, 2, 3, 4, 5, NAN, 7, 8}));
   EXPECT_EQ(refusal(), "voxel (1, 0, 1) is nan, which is no Hounsfield unit");
   write(header("float", "encoding: raw\n"), bytes<float>({1, 2, 3, 1e9F, 5, 6, 7, 8}));
@@ -137,8 +139,47 @@ TEST_F(Nrrd, ThatIsAnotherThingIsRefusedByName) {
   write(header("short", "encoding: raw\n", "(0.5,0,0) (0,0.5,0) (0,0,2)", "scanner-xyz"), eight_);
   EXPECT_EQ(refusal().substr(0, 29), "its space is 'scanner-xyz', n");
   write(header("short", "encoding: raw\ndata file: voxels.raw\n"), eight_);
-  EXPECT_EQ(refusal(), "its voxels are in another file, which is not read");
+  EXPECT_EQ(refusal(), "line 10: its voxels are in another file, which is not read");
   EXPECT_EQ(read_nrrd("/gone.nrrd").error().text, "'/gone.nrrd' cannot be read");
+}
+
+/// Of a sound file with one line more.
+TEST_F(Nrrd, WithAFieldThatWouldMoveOrScaleItsVoxelsIsRefusedWithTheLine) {
+  const auto with = [&](const std::string& line) {
+    write(header("short", "encoding: raw\n" + line + "\n"), "12345678" + eight_);
+    return refusal();
+  };
+  EXPECT_EQ(with("byte skip: 8"),
+            "line 10: its 'byte skip' is '8'; only voxels that begin right behind the header are "
+            "read");
+  EXPECT_EQ(with("byteskip: -1"),
+            "line 10: its 'byteskip' is '-1'; only voxels that begin right behind the header are "
+            "read");
+  EXPECT_EQ(with("line skip: 1"),
+            "line 10: its 'line skip' is '1'; only voxels that begin right behind the header are "
+            "read");
+  EXPECT_EQ(with("old max: 3000"),
+            "line 10: its 'old max' is '3000'; only voxels that are Hounsfield units themselves "
+            "are read");
+  EXPECT_EQ(with("space units: \"m\" \"m\" \"m\""),
+            "line 10: its 'space units' is '\"m\" \"m\" \"m\"'; three times \"mm\" is read");
+  EXPECT_EQ(with("space units: \"mm\" \"mm\""),
+            "line 10: its 'space units' is '\"mm\" \"mm\"'; three times \"mm\" is read");
+  EXPECT_EQ(with("endian: middle"), "line 10: its 'endian' is 'middle', not big or little");
+  for (const char* harmless : {"byte skip: 0", "line skip: 0", "space units: \"mm\" \"mm\" \"mm\"",
+                               "Endian: Little", "type:=byte skip: 8", "# byte skip: 8"}) {
+    EXPECT_EQ(with(harmless), "read") << harmless;
+  }
+}
+
+TEST_F(Nrrd, WithAFieldTwiceOrAnOriginThatIsNoPlaceIsRefusedWithTheLine) {
+  write(header("short", "encoding: raw\nSpace Origin: (0,0,0)\n"), eight_);
+  EXPECT_EQ(refusal(),
+            "line 10: 'Space Origin' is there twice, in line 7 as well: which one counts?");
+  std::string wrong = header("short", "encoding: raw\n");
+  wrong.replace(wrong.find("(10,20,30)"), 10, "(10,nan,30)");
+  write(wrong, eight_);
+  EXPECT_EQ(refusal(), "line 7: its 'space origin' is '(10,nan,30)', which is no place");
 }
 
 }  // namespace

@@ -26,13 +26,19 @@ AtSite at_site(const Isometry3d& site_T_drill) {
 
 BoreMonitor::BoreMonitor(const std::vector<Site>& sites, const GuidedChain& estimate,
                          const Parameters& parameters)
-    : parameters_{parameters}, flange_T_tool_{estimate.flange_T_tool()} {
-  for (const Site& site : sites) {
-    bores_.push_back({site});
-    site_T_base_.push_back(estimate.base_T_site(site.image_T_site).inverse());
+    : parameters_{parameters} {
+  for (const Site& site : sites) bores_.push_back({site});
+  believe(estimate);
+}
+
+void BoreMonitor::believe(const GuidedChain& estimate) {
+  estimate_ = estimate;
+  site_T_base_.clear();
+  for (const Bore& bore : bores_) {
+    site_T_base_.push_back(estimate.base_T_site(bore.image_T_site).inverse());
   }
   for (std::size_t i = 0; i < bores_.size(); ++i) {
-    bores_[i].near_m = parameters.near;
+    bores_[i].near_m = parameters_.near;
     for (std::size_t k = 0; k < bores_.size(); ++k) {
       if (k != i) bores_[i].near_m = std::min(bores_[i].near_m, entry_to_axis(i, k) / 2);
     }
@@ -50,7 +56,7 @@ void BoreMonitor::see(const Isometry3d& base_T_flange, const GuidedChain& truth)
     return base_T_flange * flange_T_tool * Eigen::Translation3d{0, 0, site.longer_m};
   };
   const auto believed_at = [&](std::size_t i) {
-    return at_site(site_T_base_[i] * end_of(flange_T_tool_, bores_[i]));
+    return at_site(site_T_base_[i] * end_of(estimate_.flange_T_tool(), bores_[i]));
   };
   const auto is_in = [&](const AtSite& there) { return there.depth_m >= -parameters_.depth; };
   std::optional<std::size_t> nearest;  // of crossing bores
@@ -71,6 +77,8 @@ void BoreMonitor::see(const Isometry3d& base_T_flange, const GuidedChain& truth)
     bore->deepest_m = is.depth_m;
     bore->error = base_T_site.linear() * site_T_drill.translation();
     bore->axis_error_rad = is.tilt_rad;
+    bore->estimate = estimate_;
+    bore->truth = truth;
   }
   bore->line_deviation_m = std::max(bore->line_deviation_m, believed.off_m);
   bore->line_tilt_rad = std::max(bore->line_tilt_rad, believed.tilt_rad);

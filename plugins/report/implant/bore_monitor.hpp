@@ -23,6 +23,7 @@ struct Bore : Site {
   /// frame, and its axis against the site's. None before it was in.
   std::optional<Eigen::Vector3d> error = {};
   double axis_error_rad = 0;
+  GuidedChain estimate = {}, truth = {};  // at that instant
   /// As the arm believed, the farthest off the site's axis and the most tilted against it inside.
   double line_deviation_m = 0, line_tilt_rad = 0;
   double deepest_m = 0;  // from the true bottom
@@ -44,6 +45,8 @@ class BoreMonitor {
   BoreMonitor(const std::vector<Site>& sites, const GuidedChain& estimate,
               const Parameters& parameters);
 
+  /// From now on, while the tool is out. What was drilled before keeps what it was drilled by.
+  void believe(const GuidedChain& estimate);
   void see(const Eigen::Isometry3d& base_T_flange, const GuidedChain& truth);
 
   const std::vector<Bore>& bores() const { return bores_; }
@@ -56,8 +59,8 @@ class BoreMonitor {
 
   Parameters parameters_;
   std::vector<Bore> bores_;
+  GuidedChain estimate_;
   std::vector<Eigen::Isometry3d> site_T_base_;  // of bores_, as the arm believes
-  Eigen::Isometry3d flange_T_tool_;             // the same
   std::optional<std::size_t> inside_;           // of bores_: where the drill was last
 };
 

@@ -148,33 +148,39 @@ class ImplantReport final : public Component {
 
   void read_chains() {
     if (!truth_.latest() || !estimate_.latest() || !plan_.latest() || !jaw_T_image_) return;
-    const auto truth = chain_of(*truth_.latest()), estimate = chain_of(*estimate_.latest());
+    const auto truth = chain_of(*truth_.latest());
+    auto estimate = chain_of(*estimate_.latest());
     if (!truth) return degraded("truth: " + truth.error().text);
     if (!estimate) return degraded("estimate: " + estimate.error().text);
+    estimate->patient_T_image = *jaw_T_image_;
     true_chain_ = *truth;
-    chain_ = *estimate;
-    chain_->patient_T_image = *jaw_T_image_;
-    if (bores_) return;
-    std::vector<Site> sites, places;
-    const auto& implants = plan_.latest()->implants_();
-    for (const msg::Pose& site : plan_.latest()->sites_()) {
-      const std::size_t i = sites.size();
-      sites.push_back({to_eigen(site)});
-      if (i >= implants.size()) continue;
-      const Eigen::Translation3d up{0, 0, -implants[i].above_bottom_()};
-      places.push_back({sites[i].image_T_site * up, implants[i].length_()});
-    }
-    bores_.emplace(sites, *chain_, parameters_);
-    read_driver(places);
-  }
-
-  void read_driver(const std::vector<Site>& places) {
+    if (!bores_) bores_.emplace(sites(), *estimate, parameters_);
+    bores_->believe(*estimate);
     auto driver = chain_of(*estimate_.latest(), kDriver);
-    auto true_driver = chain_of(*truth_.latest(), kDriver);
+    const auto true_driver = chain_of(*truth_.latest(), kDriver);
     if (!driver || !true_driver) return;
     driver->patient_T_image = *jaw_T_image_;
     true_driver_ = *true_driver;
-    implants_.emplace(places, *driver, parameters_);
+    if (!implants_) implants_.emplace(places(), *driver, parameters_);
+    implants_->believe(*driver);
+  }
+
+  std::vector<Site> sites() const {
+    std::vector<Site> sites;
+    for (const msg::Pose& site : plan_.latest()->sites_()) sites.push_back({to_eigen(site)});
+    return sites;
+  }
+
+  /// Of the implants' ends.
+  std::vector<Site> places() const {
+    std::vector<Site> places = sites();
+    const auto& implants = plan_.latest()->implants_();
+    places.resize(std::min(places.size(), implants.size()));
+    for (std::size_t i = 0; i < places.size(); ++i) {
+      places[i].image_T_site.translate(Vector3d{0, 0, -implants[i].above_bottom_()});
+      places[i].longer_m = implants[i].length_();
+    }
+    return places;
   }
 
   /// How far the handpiece had turned at an instant, when it says so.
@@ -256,7 +262,7 @@ class ImplantReport final : public Component {
     std::vector<Vector3d> errors, registration, hand_eye, tool, tracker;
     double angle = 0, unexplained = 0, off = 0, tilt = 0;
     for (const Bore& bore : bores_->bores()) {
-      const ErrorBudget budget = error_budget(*chain_, true_chain_, bore.image_T_site);
+      const ErrorBudget budget = error_budget(bore.estimate, bore.truth, bore.image_T_site);
       errors.push_back(*bore.error);
       registration.push_back(budget.registration);
       hand_eye.push_back(budget.hand_eye);
@@ -328,10 +334,8 @@ class ImplantReport final : public Component {
   Flange flange_;
   std::optional<Time> start_, drilled_at_, ended_at_;
   std::optional<Eigen::Affine3d> jaw_T_image_;
-  GuidedChain true_chain_;
-  std::optional<GuidedChain> chain_;
+  GuidedChain true_chain_, true_driver_;
   std::optional<BoreMonitor> bores_, implants_;
-  GuidedChain true_driver_;
   bool has_driver_ = false;  // in the drill's place
   ThreadMonitor threads_;
   std::size_t handpiece_read_ = 0;  // of its samples

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report on its topics: 1. errors and their sources, 2. how the drill turned, 3. a refused
-// drilling, 4. nothing before its time.
+// drilling, 4. nothing before its time, 5. a jaw that moves and one that is registered again.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -30,6 +30,8 @@ class ImplantReportTest : public testing::Test {
         mount_.flange_T_tool.translation() + mount_.flange_T_tool.linear() * Vector3d{0, 0, 0.0003};
     estimate_ = truth_;
     estimate_.tip = mount_.flange_T_tool.translation();
+    implant_.above_bottom_(0.0005);
+    implant_.length_(0.011);
   }
   /// With the sites so far along the first one's axis and beside it [m].
   void show_room(const std::vector<Vector3d>& sites = {Vector3d::Zero()}) {
@@ -38,24 +40,45 @@ class ImplantReportTest : public testing::Test {
       assign(plan.sites_().emplace_back(),
              forward_kinematics(robot_, home_) * Eigen::Translation3d{site});
     }
+    if (has_implants_) plan.implants_().resize(sites.size(), implant_);
     report_.send("plan", plan);
-    msg::TFMessage truth, estimate;
-    write_chain(truth_, Time{}, truth);
-    write_chain(estimate_, Time{}, estimate);
-    report_.send("truth", truth);
-    report_.send("estimate", estimate);
-    msg::RegistrationRequest request;
-    request.request_id_(7);
-    report_.send("request", request);
-    answer(7, 0);
-    answer(8, 0.005);  // to somebody else
+    send_chain("truth", truth_);
+    send_chain("estimate", estimate_);
+    ask(7);
+    answer(7, Vector3d::Zero());
+    answer(8, 0.005 * across_);  // to somebody else
   }
-  void answer(std::uint64_t id, double x_m) {
+  /// With a driver in the drill's place by which the implant's end comes to its place when the arm
+  /// is at home.
+  void send_chain(const char* input, const GuidedChain& chain) {
+    msg::TFMessage message;
+    write_chain(chain, Time{}, message);
+    GuidedChain driver = chain;
+    driver.tip =
+        mount_.flange_T_tool * Vector3d{0, 0, -implant_.above_bottom_() - implant_.length_()};
+    if (has_implants_) write_tool(driver, kDriver, Time{}, message);
+    report_.send(input, message);
+  }
+  void ask(std::uint64_t id) {
+    msg::RegistrationRequest request;
+    request.request_id_(id);
+    report_.send("request", request);
+  }
+  /// With the image so far [m] from where it is.
+  void answer(std::uint64_t id, const Vector3d& off) {
     msg::RegistrationResponse response;
     response.request_id_(id);
     response.valid_(true);
-    response.robot_t_image_({1, 0, 0, x_m, 0, 1, 0, 0, 0, 0, 1, 0});
+    response.robot_t_image_({1, 0, 0, off.x(), 0, 1, 0, off.y(), 0, 0, 1, off.z()});
     report_.send("registration", response);
+  }
+  /// The answer to another question, which makes the estimate `off` by that.
+  void register_again(double at_s, const Vector3d& off) {
+    ask(9);
+    answer(9, off);
+    tell("registering");
+    report_.step(at_s);
+    send_chain("estimate", estimate_);
   }
   void move_arm(double t_s, const JointVector& v) {
     msg::JointState state;
@@ -74,6 +97,10 @@ class ImplantReportTest : public testing::Test {
   const RobotModel robot_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml");
   const JointVector home_ = resting_position(robot_), rest_ = JointVector::Zero(7);
   const Flange mount_ = flange_of(robot_);
+  /// Across the drill at home.
+  const Vector3d across_ = forward_kinematics(robot_, home_).linear().col(0);
+  bool has_implants_ = false;
+  msg::Implant implant_;
   GuidedChain truth_, estimate_;
   ComponentHarness report_{built_plugins(),
                            {.component = "{plugin: report/implant}",
@@ -106,6 +133,90 @@ TEST_F(ImplantReportTest, TellsTheErrorAtTheSitesAndWhereItIsFrom) {
                            "unexplained_error_mm", "line_deviation_mm", "line_tilt_deg"}) {
     EXPECT_NEAR(told.metrics.at(none), 0, 1e-9) << none;
   }
+}
+
+TEST_F(ImplantReportTest, AnImplantIsMeasuredInTheJawAsItWasWhenThatWentInAndABoreLikewise) {
+  has_implants_ = true;
+  show_room();
+  tell("drilling");
+  report_.step(1);
+  move_arm(1.1, rest_);
+  tell("withdrawing");
+  report_.step(2);
+  truth_.tracker_T_patient.translate(0.003 * across_);
+  send_chain("truth", truth_);
+  tell("changing tool");
+  report_.step(3);
+  move_arm(3.1, rest_);
+  tell("placed");
+  report_.step(4);
+  truth_.tracker_T_patient.translate(0.1 * across_);  // when all is done
+  send_chain("truth", truth_);
+  report_.step(5);
+  const auto told = report_.figures().metrics;
+  EXPECT_NEAR(told.at("implant_error_mm"), 3, 1e-9);
+  EXPECT_NEAR(told.at("site_error_mm"), 0.3, 1e-9);
+  EXPECT_NEAR(told.at("tool_error_mm"), 0.3, 1e-9);
+  EXPECT_NEAR(told.at("tracker_error_mm"), 0, 1e-9) << "the jaw had not moved yet";
+  EXPECT_NEAR(told.at("unexplained_error_mm"), 0, 1e-9);
+}
+
+TEST_F(ImplantReportTest, OfAJawThatMovedBeforeItWasDrilledTheTrackersPartIsTold) {
+  show_room();
+  tell("drilling");
+  report_.step(1);
+  truth_.tracker_T_patient.translate(0.0004 * across_);
+  send_chain("truth", truth_);
+  report_.step(1.02);
+  move_arm(1.1, rest_);
+  tell("drilled");
+  report_.step(2);
+  const auto told = report_.figures().metrics;
+  EXPECT_NEAR(told.at("site_error_mm"), 0.5, 1e-9);
+  EXPECT_NEAR(told.at("tracker_error_mm"), 0.4, 1e-9);
+  EXPECT_NEAR(told.at("unexplained_error_mm"), 0, 1e-9);
+}
+
+TEST_F(ImplantReportTest, AfterTheOperatorsBackTheAxesAreThoseOfTheNewRegistration) {
+  has_implants_ = true;
+  show_room();
+  tell("approaching");
+  report_.step(1);
+  register_again(2, 0.0002 * across_);
+  tell("drilling");
+  report_.step(3);
+  move_arm(3.1, rest_);
+  tell("withdrawing");
+  report_.step(4);
+  tell("changing tool");
+  move_arm(4.1, rest_);
+  tell("placed");
+  report_.step(5);
+  const auto told = report_.figures().metrics;
+  EXPECT_NEAR(told.at("line_deviation_mm"), 0.2, 1e-9);
+  EXPECT_NEAR(told.at("implant_deviation_mm"), 0.2, 1e-9);
+  EXPECT_NEAR(told.at("registration_error_mm"), 0.2, 1e-9);
+}
+
+TEST_F(ImplantReportTest, ABoreIsHeldAgainstTheRegistrationThatItWasDrilledBy) {
+  has_implants_ = true;
+  show_room();
+  tell("drilling");
+  report_.step(1);
+  move_arm(1.1, rest_);
+  tell("withdrawing");
+  report_.step(2);
+  tell("changing tool");
+  register_again(3, 0.0002 * across_);  // back, from above the first implant's site
+  tell("approaching");
+  report_.step(4);
+  move_arm(4.1, rest_);
+  tell("placed");
+  report_.step(5);
+  const auto told = report_.figures().metrics;
+  EXPECT_NEAR(told.at("line_deviation_mm"), 0, 1e-9);
+  EXPECT_NEAR(told.at("registration_error_mm"), 0, 1e-9);
+  EXPECT_NEAR(told.at("implant_deviation_mm"), 0.2, 1e-9);
 }
 
 TEST_F(ImplantReportTest, TellsHowTheDrillTurnedOnItsWayThroughTheSites) {

@@ -219,6 +219,24 @@ TEST(DentalImplant, ATrackerThatIsKnockedWhileItDrillsStopsTheArm) {
                  "the jaw has moved by ");
 }
 
+TEST(DentalImplant, AJawThatMovedAfterTheDrillingIsInTheErrorOfTheImplantsAlone) {
+  const DeploymentRun run =
+      with_implants({kTracker + "jaw_shift_mm=[3, 0, 0]", kTracker + "jaw_shift_at_s=56",
+                     kTask + "max_jaw_motion_mm=5"});
+  SCOPED_TRACE(run.text());
+  EXPECT_EQ(run.status(), "goals_missed");
+  EXPECT_NEAR(run.figure("implant_error_mm"), 3, 0.5);
+  EXPECT_LE(run.figure("site_error_mm"), 0.8);
+  EXPECT_LE(run.figure("tracker_error_mm"), 0.05);
+  EXPECT_LE(run.figure("unexplained_error_mm"), 0.01);
+}
+
+TEST(DentalImplant, TwoSitesAtOnePlaceAreRefused) {
+  expect_refused({kTracker + "sites_mm=[10, -5, 12, 10, -5, 12]",
+                  kTracker + "sites_rpy_deg=[0, 0, 0, 0, 0, 0]"},
+                 "the plan: the bores of sites 1 and 2 come as near as 0.00 mm to each other");
+}
+
 TEST(DentalImplant, OfOneSiteTheErrorIsToldAndWhyNoTurnIs) {
   const DeploymentRun run =
       implant({kTracker + "sites_mm=[10, -5, 12]", kTracker + "sites_rpy_deg=[3, 11, 18]"});

@@ -39,6 +39,7 @@ Expected<void> Guidance::see_plan(const std::vector<ToolPose>& sites,
     sites_.emplace_back(Eigen::Translation3d{valid->position} *
                         std::get<Eigen::Quaterniond>(valid->orientation));
   }
+  if (const auto wrong = defect(sites_, parameters_)) return refuse("the plan: " + *wrong);
   if (implants.empty()) return {};
   if (const auto wrong = defect(implants, sites.size(), parameters_.depth)) {
     return refuse("the plan: " + *wrong);

@@ -9,6 +9,8 @@
 #include <string>
 #include <utility>
 
+#include "armature/robot/geometry/forbidden_zone.hpp"
+
 namespace armature::task::implant {
 namespace {
 
@@ -60,7 +62,29 @@ std::vector<Pass> site_by_site(const std::vector<SitePoses>& sites) {
   return passes;
 }
 
+/// [m] From axis to axis of two bores.
+double distance(const Isometry3d& image_T_site, const Isometry3d& image_T_other, double depth_m) {
+  const Eigen::Vector3d mouth{0, 0, -depth_m};
+  return clearance(image_T_site.translation(), image_T_site * mouth,
+                   {.name = "", .from = image_T_other.translation(), .to = image_T_other * mouth});
+}
+
 }  // namespace
+
+std::optional<std::string> defect(const std::vector<Isometry3d>& image_T_sites,
+                                  const Parameters& parameters) {
+  for (std::size_t i = 0; i < image_T_sites.size(); ++i) {
+    for (std::size_t k = i + 1; k < image_T_sites.size(); ++k) {
+      const double apart_m = distance(image_T_sites[i], image_T_sites[k], parameters.depth);
+      if (apart_m >= parameters.min_site_distance) continue;
+      return fmt::format(
+          "the bores of sites {} and {} come as near as {:.2f} mm to each other, axis to axis; "
+          "'min_site_distance_mm' is {:g}",
+          i + 1, k + 1, 1e3 * apart_m, 1e3 * parameters.min_site_distance);
+    }
+  }
+  return std::nullopt;
+}
 
 std::optional<std::string> defect(const std::vector<PlannedImplant>& implants, std::size_t sites,
                                   double depth_m) {

@@ -20,6 +20,11 @@ struct PlannedImplant {
   double pitch_m = 0;  // that it goes in with every turn
 };
 
+/// What is wrong with how the sites of a plan lie to each other, or nullopt. Bores reach from the
+/// bottom `depth` up; none may come nearer to another, axis to axis, than `min_site_distance`.
+std::optional<std::string> defect(const std::vector<Eigen::Isometry3d>& image_T_sites,
+                                  const Parameters& parameters);
+
 /// What is wrong with the implants of a plan for so many sites, in bores of this depth [m]; or
 /// nullopt.
 std::optional<std::string> defect(const std::vector<PlannedImplant>& implants, std::size_t sites,

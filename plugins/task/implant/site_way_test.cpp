@@ -124,6 +124,26 @@ TEST_F(SiteWayTest, AnImplantGoesToTheBoneThenSlowlyToItsPlaceAndTheDriverOutWit
   EXPECT_EQ(way.passes[4].name, "implant 2");
 }
 
+TEST_F(SiteWayTest, BoresThatComeTooNearAreToldWithBothSitesAndTheDistance) {
+  const Parameters parameters{.depth = 0.012, .min_site_distance = 0.007};
+  EXPECT_EQ(defect(sites_, parameters), std::nullopt);
+  // 8 mm apart at the bottoms; 12 sin(0.1), 1.2 mm, less at the mouths.
+  const Isometry3d upright = Isometry3d::Identity();
+  const Isometry3d leaning =
+      Eigen::Translation3d{0.008, 0, 0} * Eigen::AngleAxisd{0.1, Vector3d::UnitY()};
+  const Eigen::Translation3d aside{0, 0.1, 0};
+  EXPECT_EQ(defect({sites_[0], aside * upright, aside * leaning}, parameters),
+            "the bores of sites 2 and 3 come as near as 6.80 mm to each other, axis to axis; "
+            "'min_site_distance_mm' is 7");
+  EXPECT_EQ(defect({upright, leaning}, {.depth = 0.009, .min_site_distance = 0.007}), std::nullopt)
+      << "8 - 9 sin 0.1 is more than 7";
+  const Isometry3d crossing =
+      Eigen::Translation3d{-0.003, 0.001, -0.006} * Eigen::AngleAxisd{-M_PI / 2, Vector3d::UnitY()};
+  EXPECT_EQ(defect({upright, crossing}, parameters),
+            "the bores of sites 1 and 2 come as near as 1.00 mm to each other, axis to axis; "
+            "'min_site_distance_mm' is 7");
+}
+
 TEST_F(SiteWayTest, OneSiteIsEnough) {
   sites_.resize(1);
   const SiteWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});

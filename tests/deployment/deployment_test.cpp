@@ -130,6 +130,20 @@ TEST_F(DeploymentTest, WhatCannotBeMeasuredSaysWhyAndDoesNotMeetItsGoal) {
       << deaf.table;
 }
 
+TEST_F(DeploymentTest, AGoalOfAFigureThatDoesNotApplyDecidesNothing) {
+  const Told silent =
+      run(", sim_latency_s: 1", ", params: {expects_silence: true}", "goals: {delay_s: 0.001}\n");
+  EXPECT_EQ(silent.status, "ok");
+  EXPECT_TRUE(silent.reasons.empty());
+  EXPECT_NE(silent.json.find(R"("delay_s":null)"), std::string::npos) << silent.json;
+  EXPECT_NE(silent.json.find(R"("does_not_apply":{"delay_s":"no beat was to come"})"),
+            std::string::npos)
+      << silent.json;
+  EXPECT_NE(silent.table.find("-   goal 0.001   does not apply: no beat was to come\n"),
+            std::string::npos)
+      << silent.table;
+}
+
 TEST_F(DeploymentTest, AStoryThatFailedTellsItsReason) {
   const Told deaf = run(", sim_latency_s: 1", ", params: {minds_silence: true}");
   EXPECT_TRUE(deaf.json.starts_with(R"({"status":"deaf","reason":"beat tells nothing",)"))

@@ -38,7 +38,8 @@ JudgedSweepGoal judged(const SweepGoal& goal, const std::vector<Spread>& figures
   JudgedSweepGoal result{.goal = goal, .value = std::nan("")};
   const auto spread = std::ranges::find(figures, goal.metric, &Spread::figure);
   if (spread == figures.end() || spread->values.empty()) {
-    result.fault = "no run measured it";
+    result.applies = spread == figures.end() || spread->runs() > 0;
+    if (result.applies) result.fault = "no run measured it";
     return result;
   }
   result.value = statistic_of(*spread, goal);
@@ -62,6 +63,11 @@ JudgedSweepGoal judged(const SweepGoal& goal, const std::vector<Spread>& figures
     }
   }
   return result;
+}
+
+bool does_not_apply(const Json& report, const std::string& figure) {
+  const auto reasons = report.find("does_not_apply");
+  return reasons != report.end() && reasons->contains(figure);
 }
 
 /// The figures that are numbers, in the order in which reports tell them.
@@ -143,7 +149,7 @@ RunSpread spread_of(const std::vector<SeedReport>& reports, const DeploymentConf
     for (const auto& [seed, report] : reports) {
       const auto value = report->find(spread.figure);
       if (value == report->end() || !value->is_number()) {
-        ++spread.unmeasured;
+        ++(does_not_apply(*report, spread.figure) ? spread.inapplicable : spread.unmeasured);
         continue;
       }
       spread.values.push_back(value->get<double>());

@@ -30,15 +30,17 @@ struct Spread {
   std::string figure;
   std::vector<double> values;  // of the runs that measured it, sorted
   std::size_t unmeasured = 0;
-  std::optional<double> goal;  // of a single run, at most
-  std::size_t met = 0;         // runs
+  std::size_t inapplicable = 0;  // of runs in which there was nothing to be measured
+  std::optional<double> goal;    // of a single run, at most
+  std::size_t met = 0;           // runs
 
   double median() const;
   double p95() const;
   double max() const { return values.back(); }
   double rms() const;
-  /// Of all runs, measured or not.
+  /// Of all runs that it applies to, measured or not.
   double share_at_most(double limit) const;
+  /// Runs that it applies to.
   std::size_t runs() const { return values.size() + unmeasured; }
 };
 
@@ -46,7 +48,8 @@ struct Spread {
 struct JudgedSweepGoal {
   SweepGoal goal;
   double value = 0;
-  std::string fault;  // why it is not met, or ""
+  std::string fault;    // why it is not met, or ""
+  bool applies = true;  // to any run
 };
 
 /// What a run told, and its seed.

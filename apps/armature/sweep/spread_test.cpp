@@ -9,6 +9,8 @@
 #include <optional>
 #include <random>
 
+#include "sweep/sweep_report.hpp"
+
 namespace armature::sweep {
 namespace {
 
@@ -96,6 +98,29 @@ TEST_F(SpreadTest, AFigureThatNoRunMeasuredIsNoGoalMet) {
   reports_.push_back({{"status", "ok"}, {"error_mm", nullptr}});
   ask(Statistic::max, {}, 10);
   EXPECT_EQ(spread().goals[0].fault, "no run measured it");
+}
+
+TEST_F(SpreadTest, ARunThatAFigureDoesNotApplyToIsNotCounted) {
+  add_runs(3);
+  const Json without{{"status", "ok"},
+                     {"error_mm", nullptr},
+                     {"does_not_apply", {{"error_mm", "nothing turned"}}}};
+  reports_.push_back(without);
+  ask(Statistic::max, {}, 3);
+  ask(Statistic::share, 1, {}, 3);
+  config_.goals = {{.metric = "error_mm", .limit = 3, .origin = {}, .limit_origin = {}}};
+  const RunSpread told = spread();
+  EXPECT_TRUE(told.is_ok());
+  EXPECT_EQ(told.figures.at(0).runs(), 3u);
+  EXPECT_EQ(told.figures.at(0).inapplicable, 1u);
+  EXPECT_EQ(told.goals[1].value, 1) << "3 of 3";
+  EXPECT_NE(to_text(told).find("  does not apply to 1 more\n"), std::string::npos) << to_text(told);
+  reports_.assign(2, without);
+  const RunSpread none = spread();
+  EXPECT_TRUE(none.is_ok());
+  EXPECT_NE(to_text(none).find("  error_mm, max: does not apply to any run\n"), std::string::npos)
+      << to_text(none);
+  EXPECT_FALSE(to_json(none)["sweep_goals"][0].contains("met"));
 }
 
 TEST(ShareInterval, IsWilsons) {

@@ -38,7 +38,8 @@ std::string bound_text(const std::optional<double>& bound) {
 
 std::string text_of(const Spread& spread, std::size_t width, bool is_pooled) {
   if (spread.values.empty()) {
-    return fmt::format("  {:<{}}  {:>5}  not measured\n", spread.figure, width, 0);
+    return fmt::format("  {:<{}}  {:>5}  {}\n", spread.figure, width, 0,
+                       spread.runs() > 0 ? "not measured" : "does not apply");
   }
   const QuantileInterval p95 = p95_of(spread, is_pooled);
   std::string text = fmt::format("  {:<{}}  {:>5}  {:>10.4g}  {:>10.4g}  [{}, {}]", spread.figure,
@@ -52,11 +53,18 @@ std::string text_of(const Spread& spread, std::size_t width, bool is_pooled) {
                     100.0 * static_cast<double>(spread.met) / static_cast<double>(spread.runs()));
     if (!is_pooled) text += fmt::format(" [{:.1f}, {:.1f}]", 100 * met.low, 100 * met.high);
   }
+  if (spread.inapplicable > 0) {
+    text += fmt::format("  does not apply to {} more", spread.inapplicable);
+  }
   return text + '\n';
 }
 
 std::string text_of(const JudgedSweepGoal& judged) {
   const SweepGoal& goal = judged.goal;
+  if (!judged.applies) {
+    return fmt::format("  {}, {}: does not apply to any run\n", goal.metric,
+                       to_string(goal.statistic));
+  }
   std::string wanted;
   if (goal.at_least) wanted = fmt::format("at least {:g}", *goal.at_least);
   if (goal.at_most) {
@@ -73,7 +81,8 @@ std::string text_of(const JudgedSweepGoal& judged) {
 
 std::string csv_of(const std::vector<RunSpread>& spreads) {
   std::string csv =
-      "variation,figure,runs,not_measured,median,p95,p95_low,p95_high,greatest,rms,goal,met\r\n";
+      "variation,figure,runs,not_measured,median,p95,p95_low,p95_high,greatest,rms,goal,met,"
+      "does_not_apply\r\n";
   for (const RunSpread& one : spreads) {
     for (const Spread& spread : one.figures) {
       if (spread.values.empty()) continue;
@@ -81,11 +90,11 @@ std::string csv_of(const std::vector<RunSpread>& spreads) {
       const auto bound = [](const std::optional<double>& value) {
         return value ? fmt::format("{}", *value) : "";
       };
-      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_field(name_of(one)),
+      csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", csv_field(name_of(one)),
                          spread.figure, spread.values.size(), spread.unmeasured, spread.median(),
                          spread.p95(), bound(p95.low), bound(p95.high), spread.max(), spread.rms(),
                          spread.goal ? fmt::format("{}", *spread.goal) : "",
-                         spread.goal ? fmt::format("{}", spread.met) : "");
+                         spread.goal ? fmt::format("{}", spread.met) : "", spread.inapplicable);
     }
   }
   return csv;
@@ -179,6 +188,7 @@ Json to_json(const RunSpread& spread) {
   json["figures"] = Json::object();
   for (const Spread& figure : spread.figures) {
     Json one{{"runs", figure.values.size()}, {"not_measured", figure.unmeasured}};
+    if (figure.inapplicable > 0) one["does_not_apply"] = figure.inapplicable;
     if (!figure.values.empty()) {
       const QuantileInterval p95 = p95_of(figure, spread.is_pooled);
       const auto bound = [](const std::optional<double>& value) {
@@ -197,8 +207,12 @@ Json to_json(const RunSpread& spread) {
   for (const JudgedSweepGoal& goal : spread.goals) {
     Json one{{"figure", goal.goal.metric},
              {"statistic", to_string(goal.goal.statistic)},
-             {"value", goal.value},
-             {"met", goal.fault.empty()}};
+             {"value", goal.value}};
+    if (goal.applies) {
+      one["met"] = goal.fault.empty();
+    } else {
+      one["does_not_apply"] = true;
+    }
     if (goal.goal.at_least) one["at_least"] = *goal.goal.at_least;
     if (goal.goal.at_most) one["at_most"] = *goal.goal.at_most;
     if (goal.goal.statistic == SweepGoal::Statistic::share) one["share_of"] = goal.goal.share_of;

@@ -206,8 +206,10 @@ class ImplantReport final : public Component {
   }
 
   void read(const msg::MotionGoal& goal) {
+    has_goals_ = true;
     if (goal.through_().empty()) return;
     keyed_goal_ = goal.goal_id_();
+    keyed_path_seen_ = false;
     keys_.clear();
     for (const msg::ToolPose& key : goal.through_()) {
       keys_.push_back({to_eigen(key.position_()), to_eigen(key.orientation_())});
@@ -233,6 +235,8 @@ class ImplantReport final : public Component {
       if (is_next) at.push_back(i);
     }
     const PlannedTurn turn{samples, at};
+    keyed_path_seen_ = true;
+    planned_turn_ = std::max(planned_turn_, turn.total_rad());
     if (turn.total_rad() < parameters_.min_turn || turn.keys_seen() == 0) return;
     planned_jump_ = std::max(planned_jump_.value_or(0), turn.jump_of_peak());
   }
@@ -307,10 +311,12 @@ class ImplantReport final : public Component {
     if (smoothness_.total_rad() >= parameters_.min_turn) {
       return summary.metric(kJump, kTitle, smoothness_.acceleration_jump_of_peak());
     }
-    summary.not_measured(
+    if (!smoothness_.has_samples()) {
+      return summary.not_measured(kJump, kTitle, "no sample of the arm came while it drilled");
+    }
+    summary.does_not_apply(
         kJump, kTitle,
-        fmt::format("the drill turned by {:.2g} degrees in all, 'min_turn_deg' "
-                    "is {:g}",
+        fmt::format("the drill turned by {:.2g} degrees in all, 'min_turn_deg' is {:g}",
                     kDegrees * smoothness_.total_rad(), kDegrees * parameters_.min_turn));
   }
 
@@ -318,10 +324,19 @@ class ImplantReport final : public Component {
     constexpr const char *kKey = "planned_turn_jump",
                          *kTitle = "jump of the planned turn at a key pose, as a part of its peak";
     if (planned_jump_) return summary.metric(kKey, kTitle, *planned_jump_);
+    if (has_goals_ && keys_.empty()) {
+      return summary.does_not_apply(kKey, kTitle, "no way goes through key poses");
+    }
+    if (keyed_path_seen_ && planned_turn_ < parameters_.min_turn) {
+      return summary.does_not_apply(
+          kKey, kTitle,
+          fmt::format("the ways through key poses turn by {:.2g} degrees at most, 'min_turn_deg' "
+                      "is {:g}",
+                      kDegrees * planned_turn_, kDegrees * parameters_.min_turn));
+    }
     summary.not_measured(kKey, kTitle,
-                         fmt::format("no path turned by 'min_turn_deg', {:g} degrees, and had key "
-                                     "poses with samples on both sides",
-                                     kDegrees * parameters_.min_turn));
+                         keyed_path_seen_ ? "no key pose has three samples on both sides"
+                                          : "the path through the last key poses was never seen");
   }
 
   struct KeyPose {
@@ -342,6 +357,8 @@ class ImplantReport final : public Component {
   Smoothness smoothness_;
   std::uint64_t keyed_goal_ = 0;
   std::vector<KeyPose> keys_;
+  bool has_goals_ = false, keyed_path_seen_ = false;
+  double planned_turn_ = 0;  // [rad] the greatest of a path with key poses
   std::optional<double> planned_jump_;
   std::string state_, trouble_;
   double speed_ = 0;

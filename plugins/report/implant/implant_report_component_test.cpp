@@ -87,6 +87,18 @@ class ImplantReportTest : public testing::Test {
     state.velocity_().assign(v.begin(), v.end());
     report_.send("measured_js", state);
   }
+  /// Turning about z [rad], at one place.
+  void show_path(std::uint64_t goal_id, const std::vector<double>& turns) {
+    msg::ToolPath path;
+    path.goal_id_(goal_id);
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      path.s_().push_back(static_cast<double>(i));
+      path.position_().emplace_back();
+      assign(path.orientation_().emplace_back(),
+             Eigen::Quaterniond{Eigen::AngleAxisd{turns[i], Vector3d::UnitZ()}});
+    }
+    report_.send("path", path);
+  }
   void tell(const std::string& state, const std::string& detail = "") {
     msg::TaskState message;
     message.state_() = state;
@@ -299,11 +311,47 @@ TEST_F(ImplantReportTest, OfADrillThatHardlyTurnsNoStepIsToldOfItsAcceleration) 
     wobble[6] = i % 2 ? 1e-9 : -1e-9;
     move_arm(1 + 0.001 * i, wobble);
   }
+  report_.step(1.5);
   tell("drilled");
   report_.step(2);
   EXPECT_FALSE(report_.figures().metrics.contains("acceleration_jump_of_peak"));
-  const std::string why = report_.figures().unmeasured.at("acceleration_jump_of_peak");
+  const std::string why = report_.figures().inapplicable.at("acceleration_jump_of_peak");
   EXPECT_NE(why.find("degrees in all, 'min_turn_deg' is 1"), std::string::npos) << why;
+}
+
+TEST_F(ImplantReportTest, WithoutASampleOfTheDrillingItsTurnWasNotMeasured) {
+  show_room();
+  tell("drilled");
+  report_.step(1);
+  EXPECT_EQ(report_.figures().unmeasured.at("acceleration_jump_of_peak"),
+            "no sample of the arm came while it drilled");
+  EXPECT_EQ(report_.figures().unmeasured.at("planned_turn_jump"),
+            "the path through the last key poses was never seen");
+}
+
+TEST_F(ImplantReportTest, OfWaysThatDoNotTurnNoJumpIsToldUnlessTheirPathIsMissing) {
+  show_room();
+  msg::MotionGoal goal;
+  goal.goal_id_(1);
+  report_.send("goal", goal);
+  tell("drilled");
+  report_.step(1);
+  EXPECT_EQ(report_.figures().inapplicable.at("planned_turn_jump"),
+            "no way goes through key poses");
+  goal.goal_id_(2);
+  assign(goal.through_().emplace_back().orientation_(), Eigen::Quaterniond::Identity());
+  report_.send("goal", goal);
+  report_.step(2);
+  EXPECT_EQ(report_.figures().unmeasured.at("planned_turn_jump"),
+            "the path through the last key poses was never seen");
+  show_path(2, {0, 0, 0});
+  report_.step(3);
+  EXPECT_EQ(report_.figures().inapplicable.at("planned_turn_jump"),
+            "the ways through key poses turn by 0 degrees at most, 'min_turn_deg' is 1");
+  show_path(2, {-0.1, 0, 0.1});
+  report_.step(4);
+  EXPECT_EQ(report_.figures().unmeasured.at("planned_turn_jump"),
+            "no key pose has three samples on both sides");
 }
 
 TEST_F(ImplantReportTest, ASampleThatIsNoPositionAndAChainThatIsNoneAreSaid) {

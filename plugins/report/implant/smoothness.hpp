@@ -13,6 +13,7 @@ class Smoothness {
  public:
   void see(Time stamp, const Eigen::Vector3d& omega);  // [rad/s]
 
+  bool has_samples() const { return last_.has_value(); }
   double total_rad() const { return total_; }
   double peak_velocity() const { return peak_velocity_; }          // [rad/s]
   double peak_acceleration() const { return peak_acceleration_; }  // [rad/s^2]

@@ -122,10 +122,10 @@ class TeleoperationReport final : public Component {
     if (tremor.hand_m >= parameters_.min_tremor) {
       return summary.metric(kKey, kTitle, tremor.left_db);
     }
-    summary.not_measured(kKey, kTitle,
-                         fmt::format("the hand trembles by {:.2g} mm only, 'min_tremor_mm' is "
-                                     "{:g}",
-                                     1e3 * tremor.hand_m, 1e3 * parameters_.min_tremor));
+    summary.does_not_apply(
+        kKey, kTitle,
+        fmt::format("the hand trembles by {:.2g} mm only, 'min_tremor_mm' is {:g}",
+                    1e3 * tremor.hand_m, 1e3 * parameters_.min_tremor));
   }
 
   static void tell_lag(Summary& summary, const Expected<double>& lag_s) {

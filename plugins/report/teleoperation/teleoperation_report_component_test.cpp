@@ -131,9 +131,9 @@ TEST_F(TeleoperationReportTest, WithoutATremorNothingIsToldOfWhatIsLeftOfIt) {
   const auto told = report_.figures();
   EXPECT_LT(told.metrics.at("hand_tremor_mm"), 0.01);
   EXPECT_FALSE(told.metrics.contains("tremor_db"));
-  EXPECT_NE(told.unmeasured.at("tremor_db").find("mm only, 'min_tremor_mm' is 0.01"),
+  EXPECT_NE(told.inapplicable.at("tremor_db").find("mm only, 'min_tremor_mm' is 0.01"),
             std::string::npos)
-      << told.unmeasured.at("tremor_db");
+      << told.inapplicable.at("tremor_db");
 }
 
 TEST_F(TeleoperationReportTest, TellsWhatHappensWithTheClutchOpen) {

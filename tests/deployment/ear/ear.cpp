@@ -60,6 +60,9 @@ class Ear final : public Component {
       summary.not_measured("delay_s", "delay [s]", "no beat was heard");
       summary.failed("deaf", "beat tells nothing");
     }
+    if (delays_s_.empty() && parameters_.expects_silence) {
+      summary.does_not_apply("delay_s", "delay [s]", "no beat was to come");
+    }
     summary.metric("oldest_s", "oldest beat [s]", oldest_s_);
     summary.metric("oldest_young_s", "oldest young beat [s]", oldest_young_s_);
     summary.metric("orders", "commands", orders_);

@@ -53,9 +53,9 @@ export class AboutDialog {
 function figureRows({figures}: RunFigures): string[][] {
   const shown = (value: number | string | null) =>
       value === null ? '–' : typeof value === 'string' || Number.isInteger(value) ? String(value) : Math.abs(value) < 0.0005 ? value.toExponential(0) : value.toFixed(3);
-  return figures.map(({title, value, goal, met, not_measured}) => [
-    title, not_measured ? `not measured: ${not_measured}` : Array.isArray(value) ? value.map(shown).join(', ') : shown(value),
-    goal === undefined ? '' : String(goal), goal === undefined ? '' : met ? '✓ met' : '✖ missed',
+  return figures.map(({title, value, goal, met, not_measured, does_not_apply}) => [
+    title, not_measured ? `not measured: ${not_measured}` : does_not_apply ? `does not apply: ${does_not_apply}` : Array.isArray(value) ? value.map(shown).join(', ') : shown(value),
+    goal === undefined ? '' : String(goal), met === undefined ? '' : met ? '✓ met' : '✖ missed',
   ]);
 }
 

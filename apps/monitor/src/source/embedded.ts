@@ -5,7 +5,7 @@
 export interface RunFigures {
   status: string;
   reasons: string[];
-  figures: {title: string; value: number | string | (number | null)[] | null; goal?: number; met?: boolean; not_measured?: string}[];
+  figures: {title: string; value: number | string | (number | null)[] | null; goal?: number; met?: boolean; not_measured?: string; does_not_apply?: string}[];
   timing: {executors: Record<string, Record<string, Timing>>; components: Record<string, Record<string, Timing>>};
 }
 export interface Timing { count: number; mean_s: number; p99_s: number; max_s: number }

@@ -88,6 +88,9 @@ class Summary {
   virtual void text(std::string key, std::string title, std::string value) = 0;
   /// That a metric cannot be told, and why: "the hand does not tremble". A goal on it is not met.
   virtual void not_measured(std::string key, std::string title, std::string why) = 0;
+  /// That there is nothing in this run that a metric could be of, and why: "the drill does not
+  /// turn". A goal on it decides nothing. What is there and could not be seen is `not_measured`.
+  virtual void does_not_apply(std::string key, std::string title, std::string why) = 0;
   /// Why the scenario did not come to its end: its status ("refused"), which overrides ok and
   /// goals_missed, and the reason for people ("the jaw has moved by 2 mm").
   virtual void failed(std::string status, std::string reason) = 0;

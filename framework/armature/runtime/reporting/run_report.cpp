@@ -53,6 +53,14 @@ void RunReport::not_measured(std::string key, std::string title, std::string why
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   figures_.push_back({std::move(key), std::move(title), kNone, std::move(why)});
 }
+void RunReport::does_not_apply(std::string key, std::string title, std::string why) {
+  expect_declared(key);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  figures_.push_back({.key = std::move(key),
+                      .title = std::move(title),
+                      .value = kNone,
+                      .inapplicable = std::move(why)});
+}
 void RunReport::failed(std::string status, std::string reason) {
   story_status_ = std::move(status);
   story_reason_ = std::move(reason);
@@ -65,6 +73,7 @@ void RunReport::judge_goal(const Goal& goal) {
     if (figure.key != goal.metric || !value) continue;
     found = true;
     figure.goal = &goal;
+    if (!figure.inapplicable.empty()) continue;
     figure.met = *value <= goal.limit;  // false for NaN: nothing was measured
     if (figure.met) continue;
     if (!figure.unmeasured.empty()) {
@@ -162,14 +171,16 @@ std::string first_reason(const RunReport& report) {
 }  // namespace
 
 std::string to_json(const RunReport& report) {
-  Json json, unmeasured;
+  Json json, unmeasured, inapplicable;
   json["status"] = report.status();
   if (const std::string reason = first_reason(report); !reason.empty()) json["reason"] = reason;
   for (const auto& figure : report.figures()) {
     json[figure.key] = std::visit([](const auto& value) { return to_json(value); }, figure.value);
     if (!figure.unmeasured.empty()) unmeasured[figure.key] = figure.unmeasured;
+    if (!figure.inapplicable.empty()) inapplicable[figure.key] = figure.inapplicable;
   }
   if (!unmeasured.empty()) json["not_measured"] = unmeasured;
+  if (!inapplicable.empty()) json["does_not_apply"] = inapplicable;
   if (!report.reasons().empty()) json["reasons"] = report.reasons();
   if (!report.unwell().empty()) json["unwell"] = report.unwell();
   if (report.timing()) json["timing"] = to_json(*report.timing());
@@ -187,9 +198,10 @@ std::string figures_json(const RunReport& report, const RunTiming& timing) {
             {"value", std::visit([](const auto& value) { return to_json(value); }, figure.value)}};
     if (figure.goal) {
       told["goal"] = figure.goal->limit;
-      told["met"] = figure.met;
+      if (figure.inapplicable.empty()) told["met"] = figure.met;
     }
     if (!figure.unmeasured.empty()) told["not_measured"] = figure.unmeasured;
+    if (!figure.inapplicable.empty()) told["does_not_apply"] = figure.inapplicable;
   }
   json["timing"] = to_json(timing);
   // What a component tells need not be UTF-8, and a recording ends all the same.
@@ -204,10 +216,13 @@ std::string to_table(const RunReport& report, const Mark& mark) {
     table += fmt::format("  {:<{}}  {}", figure.title, width,
                          std::visit([](const auto& value) { return shown(value); }, figure.value));
     if (figure.goal) {
-      table += fmt::format("   goal {:g}  {}", figure.goal->limit,
-                           mark(figure.met ? "met" : "MISSED", figure.met));
+      table += fmt::format("   goal {:g}", figure.goal->limit);
+      if (figure.inapplicable.empty()) {
+        table += "  " + mark(figure.met ? "met" : "MISSED", figure.met);
+      }
     }
     if (!figure.unmeasured.empty()) table += "   not measured: " + figure.unmeasured;
+    if (!figure.inapplicable.empty()) table += "   does not apply: " + figure.inapplicable;
     table += '\n';
   }
   table += fmt::format("  {:<{}}  {}\n", "status", width,

@@ -21,8 +21,9 @@ class RunReport final : public Summary {
   struct Figure {
     std::string key, title;
     std::variant<double, std::vector<double>, std::string> value;
-    std::string unmeasured = {};  // why the value is none, or ""
-    const Goal* goal = nullptr;   // of a metric that the deployment set a limit for
+    std::string unmeasured = {};    // why the value is none, or ""
+    std::string inapplicable = {};  // the same, where there is nothing to be measured
+    const Goal* goal = nullptr;     // of a metric that the deployment set a limit for
     bool met = true;
   };
 
@@ -40,6 +41,7 @@ class RunReport final : public Summary {
   void series(std::string key, std::string title, std::vector<double> values) override;
   void text(std::string key, std::string title, std::string value) override;
   void not_measured(std::string key, std::string title, std::string why) override;
+  void does_not_apply(std::string key, std::string title, std::string why) override;
   void failed(std::string status, std::string reason) override;
 
   /// "ok", "goals_missed", "fault", what a component gave for the scenario's failure
@@ -71,12 +73,12 @@ class RunReport final : public Summary {
 };
 
 /// One JSON object: `status` first, `reason` when that is not ok, figures in order, why any of them
-/// is null under `not_measured`, `reasons`, and `unwell`; numbers as the shortest text that reads
-/// back the same.
+/// is null under `not_measured` or `does_not_apply`, `reasons`, and `unwell`; numbers as the
+/// shortest text that reads back the same.
 std::string to_json(const RunReport& report);
 /// One JSON object with what the closing table says, so that a page can show it again: `status`,
 /// `reasons`, `figures` in order, each with `key`, `title`, `value`, and where there are such
-/// `goal`, `met` and `not_measured`; and `timing`.
+/// `goal`, `met`, `not_measured` and `does_not_apply`; and `timing`.
 std::string figures_json(const RunReport& report, const RunTiming& timing);
 using Mark = std::function<std::string(std::string_view word, bool good)>;
 /// The closing table for people. `mark` gets the words that judge, "met" or "MISSED" of a goal and

@@ -26,7 +26,7 @@ namespace armature ARMATURE_EXPORT {
 struct Figures final : Summary {
   std::map<std::string, double> metrics;
   std::map<std::string, std::vector<double>> lists;
-  std::map<std::string, std::string> texts, unmeasured;
+  std::map<std::string, std::string> texts, unmeasured, inapplicable;
   std::string status, reason;  // of a scenario that failed
 
   void metric(std::string key, std::string, double value) override { metrics[key] = value; }
@@ -36,6 +36,9 @@ struct Figures final : Summary {
   void text(std::string key, std::string, std::string value) override { texts[key] = value; }
   void not_measured(std::string key, std::string, std::string why) override {
     unmeasured[key] = std::move(why);
+  }
+  void does_not_apply(std::string key, std::string, std::string why) override {
+    inapplicable[key] = std::move(why);
   }
   void failed(std::string what, std::string why) override {
     status = std::move(what);

@@ -48,7 +48,7 @@ TEST_F(OperatorTest, ConfirmsPausesResumesAndAborts) {
   EXPECT_EQ(early.exit_code, kRefused);
   EXPECT_THAT(early.err, HasSubstr("'confirm' was refused: the step that waits for its "
                                    "confirmation is 'approach', not 'insertion'"));
-  const CommandResult confirmed = say("confirm", {"--json"});
+  const CommandResult confirmed = say("confirm", {"--step", "approach", "--json"});
   EXPECT_EQ(confirmed.exit_code, 0) << confirmed.err;
   const auto told = nlohmann::json::parse(confirmed.out);
   EXPECT_EQ(told["state"], "approach");
@@ -70,10 +70,10 @@ TEST_F(OperatorTest, ConfirmsATouchOnceTheTipRestsAndTakesItBack) {
   Command run{operated_biopsy(), {}};
   ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'marker 1'", kAtMost)) << run.err();
   const auto until = std::chrono::steady_clock::now() + kAtMost;
-  CommandResult confirmed = say("confirm");
+  CommandResult confirmed = say("confirm", {"--step", "marker 1"});
   while (confirmed.exit_code == kRefused && std::chrono::steady_clock::now() < until) {
     EXPECT_THAT(confirmed.err, HasSubstr("'confirm' was refused: the tip ")) << "the hand leads it";
-    confirmed = say("confirm");
+    confirmed = say("confirm", {"--step", "marker 1"});
   }
   EXPECT_EQ(confirmed.exit_code, 0) << confirmed.err;
   EXPECT_TRUE(run.wait_for_err("asks the operator to confirm 'marker 2'", kAtMost)) << run.err();
@@ -123,7 +123,7 @@ TEST_F(OperatorTest, BelievesNobodyButTheDeploymentsOwnTask) {
   ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
   const ForgedTask stranger{std::stoi(domain_), "stranger"};
   ASSERT_TRUE(run.wait_for_err("writes '/sr1_biopsy/task/state', too", kAtMost)) << run.err();
-  const CommandResult confirmed = say("confirm");
+  const CommandResult confirmed = say("confirm", {"--step", "approach"});
   EXPECT_EQ(confirmed.exit_code, 0) << confirmed.err;
   EXPECT_THAT(confirmed.out, Not(HasSubstr("forged")));
   EXPECT_THAT(confirmed.err, ContainsRegex("a writer of deployment 'stranger'.* writes "
@@ -137,7 +137,7 @@ TEST_F(OperatorTest, ConfirmsNothingWhereTwoSayThatTheyAreTheTask) {
   ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
   const ForgedTask second{std::stoi(domain_), "sr1_biopsy"};
   ASSERT_TRUE(run.wait_for_err("writes '/sr1_biopsy/task/state', too", kAtMost)) << run.err();
-  const CommandResult confirmed = say("confirm");
+  const CommandResult confirmed = say("confirm", {"--step", "approach"});
   EXPECT_EQ(confirmed.exit_code, kRefused);
   EXPECT_THAT(confirmed.err, HasSubstr("2 writers say that they are the task of deployment "
                                        "'sr1_biopsy'"));
@@ -149,7 +149,7 @@ TEST_F(OperatorTest, ConfirmsNothingWhereTwoSayThatTheyAreTheTask) {
 TEST_F(OperatorTest, IsToldThatTheArmIsStoppedWhereAWordWouldDoNothing) {
   Command run{operated_biopsy(), {}};
   ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
-  EXPECT_EQ(say("confirm").exit_code, 0);
+  EXPECT_EQ(say("confirm", {"--step", "approach"}).exit_code, 0);
   const CommandResult stopped = run_command({armature(), "stop", "--domain", domain_}, {}, kAtMost);
   ASSERT_EQ(stopped.exit_code, 0) << stopped.err;
   ASSERT_TRUE(run.wait_for_err("task      held: ", kAtMost)) << run.err();

@@ -24,6 +24,7 @@
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "operator/procedure_view.hpp"
+#include "operator/shown_question.hpp"
 #include "operator/task_link.hpp"
 #include "terminal_text.hpp"
 
@@ -82,12 +83,11 @@ class Dialogue {
     return kTimedOut;
   }
 
-  int say(const std::string& word, std::string step) {
+  int say(const std::string& word, const std::string& step) {
     // Whoever confirms must know that nobody else says that he is the task.
     if (word == "confirm") wait([&] { return link_.knows_all(); });
     if (is_ambiguous()) return kFailed;
     auto state = link_.state();
-    if (word == "confirm" && step.empty() && state) step = step_that_asks(*state);
     const std::uint64_t id = ids_();
     Steady::time_point told{};
     const bool answered = wait([&] {
@@ -110,6 +110,19 @@ class Dialogue {
     return kFailed;
   }
 
+  /// The step that a single "confirm" means: `step`, or the only one that the task asks about. Who
+  /// does not see what waits would confirm whatever has come up: of several he must name one.
+  Expected<std::string> step_meant(const std::string& step) const {
+    const auto state = link_.state();
+    if (!step.empty() || !state) return step;
+    const std::vector<std::string> asking = steps_with_question(*state);
+    const std::string waits = step_that_asks(*state);
+    if (asking.size() == 1 || waits.empty()) return waits;
+    return refuse(
+        fmt::format("which of the {} steps that ask is meant? '{}' waits now: --step '{}'",
+                    asking.size(), terminal_text(waits), terminal_text(waits)));
+  }
+
   void show_if_changed() {
     link_.look();
     const auto state = link_.state();
@@ -117,6 +130,7 @@ class Dialogue {
     const std::string summary = summary_of(*state);
     if (summary == shown_) return;
     shown_ = summary;
+    question_.show(step_that_asks(*state), Steady::now());
     fmt::print("{}\n", options_.json ? json_text(json_of(*state)) : table_of(*state));
     if (const std::string asks = step_that_asks(*state); !asks.empty() && !options_.json) {
       fmt::print("c(onfirm) '{}', p(ause), b(ack), a(bort)?\n", terminal_text(asks));
@@ -141,12 +155,24 @@ class Dialogue {
         if (!line.empty()) fmt::print(stderr, "armature: '{}' is no word of an operator\n", line);
         continue;
       }
-      say(word, "");
+      answer(word);
     }
     return kOk;
   }
 
  private:
+  /// Says a word that was typed. A confirmation is of the step that stands on the screen, whatever
+  /// waits by now.
+  void answer(const std::string& word) {
+    if (word != "confirm") {
+      say(word, "");
+    } else if (const auto step = question_.confirmed(Steady::now())) {
+      say(word, *step);
+    } else {
+      fmt::print(stderr, "armature: {}\n", terminal_text(step.error().text));
+    }
+  }
+
   /// Which of several is the task cannot be known: nothing is said to any of them.
   bool is_ambiguous() const {
     if (link_.tasks().size() < 2) return false;
@@ -189,6 +215,7 @@ class Dialogue {
   TaskLink& link_;
   std::mt19937_64 ids_{std::random_device{}()};
   std::string shown_, typed_;
+  ShownQuestion question_;
   bool ended_ = false;
 };
 
@@ -220,7 +247,12 @@ int be_operator(const OperatorOptions& options) {
   Dialogue dialogue{options, deployment, link};
   if (const int code = dialogue.meet(); code != kOk || g_left) return code;
   if (options.say.empty()) return dialogue.listen();
-  const int code = dialogue.say(options.say, options.step);
+  const auto step = options.say == "confirm" ? dialogue.step_meant(options.step) : options.step;
+  if (!step) {
+    fmt::print(stderr, "armature: 'confirm' was not said: {}\n", step.error().text);
+    return kFailed;
+  }
+  const int code = dialogue.say(options.say, *step);
   dialogue.show_if_changed();
   return code;
 }

@@ -20,8 +20,9 @@ struct OperatorOptions {
 };
 
 /// `armature operator`: shows the steps of a running deployment's task and says the operator's
-/// words to it, one or as they are typed. Exit code 1 when a word was refused, 5 when no task was
-/// found or none answered.
+/// words to it, one or as they are typed. What is typed confirms the step that was shown last; a
+/// single "confirm" needs the name of its step where a task asks about several. Exit code 1 when a
+/// word was refused, 5 when no task was found or none answered.
 int be_operator(const OperatorOptions& options);
 
 }  // namespace armature

@@ -38,12 +38,22 @@ std::string step_that_asks(const msg::TaskState& state) {
   return asks == state.procedure_().end() ? "" : asks->name_();
 }
 
+std::vector<std::string> steps_with_question(const msg::TaskState& state) {
+  std::vector<std::string> names;
+  for (const msg::TaskStep& step : state.procedure_()) {
+    if (step.asks_()) names.push_back(step.name_());
+  }
+  return names;
+}
+
 std::string summary_of(const msg::TaskState& state) {
   std::string text = state.paused_() ? "paused, " : "";
   text += state.state_();
   if (state.steps_() > 0) text += fmt::format(" {}/{}", state.step_(), state.steps_());
   if (!state.detail_().empty()) text += ": " + state.detail_();
-  for (const msg::TaskStep& step : state.procedure_()) text += fmt::format(" {}", step.state_());
+  for (const msg::TaskStep& step : state.procedure_()) {
+    text += fmt::format(" {} {}", step.name_(), step.state_());
+  }
   return text;
 }
 

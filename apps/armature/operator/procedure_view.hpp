@@ -3,6 +3,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include "armature/messages/armature_msgs.hpp"
 
@@ -10,6 +11,9 @@ namespace armature {
 
 /// The step that waits for its confirmation, or "".
 std::string step_that_asks(const msg::TaskState& state);
+
+/// All that ask when their turn comes, in their order.
+std::vector<std::string> steps_with_question(const msg::TaskState& state);
 
 /// What an operator reads of a task: what it does, and its steps, a line each.
 std::string table_of(const msg::TaskState& state);

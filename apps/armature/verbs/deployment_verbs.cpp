@@ -167,7 +167,8 @@ void add_operator(CLI::App& app, Action& action) {
   add_source(*verb, options->source);
   verb->add_option("--say", options->say, "one word, and end: confirm, pause, resume, back, abort")
       ->check(CLI::IsMember({"confirm", "pause", "resume", "back", "abort"}));
-  verb->add_option("--step", options->step, "which step is confirmed (the one that waits for it)")
+  verb->add_option("--step", options->step,
+                   "which step --say confirm means; needed where a task asks about several")
       ->check(no_text);
   verb->add_option("--component", options->component, "the task, where there are several");
   verb->add_option("--domain", options->domain, "DDS domain, instead of the file's")

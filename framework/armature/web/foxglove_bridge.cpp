@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "armature/values/json_text.hpp"
+#include "armature/values/utf8.hpp"
 #include "armature/web/foxglove_messages.hpp"
 
 namespace armature {
@@ -21,6 +22,17 @@ enum Level { kWarning = 1, kError = 2 };
 
 std::string status(Level level, const std::string& text) {
   return json_text(Json{{"op", "status"}, {"level", level}, {"message", text}});
+}
+
+/// The beginning of what a client has said, as it is told back.
+std::string beginning_of(std::string_view said) {
+  constexpr std::size_t kMostCharacters = 80;
+  std::string_view rest = said;
+  for (std::size_t i = 0; i < kMostCharacters && !rest.empty(); ++i) {
+    rest.remove_prefix(std::max<std::size_t>(first_character(rest).length, 1));
+  }
+  const std::string begin{said.substr(0, said.size() - rest.size())};
+  return rest.empty() ? begin : begin + "...";
 }
 
 /// A time as it stands in JSON, where numbers have 53 bits.
@@ -130,10 +142,10 @@ void FoxgloveBridge::said(Client client, std::string_view text) {
     } else if (op == "unsubscribe") {
       for (const auto& subscription : json.at("subscriptionIds")) unsubscribe(client, subscription);
     } else {
-      refuse_with(fmt::format("'{}' is not done here: a monitor only shows", op));
+      refuse_with(fmt::format("'{}' is not done here: a monitor only shows", beginning_of(op)));
     }
   } catch (const nlohmann::json::exception& error) {
-    refuse_with(error.what());
+    refuse_with(beginning_of(error.what()));
   }
 }
 
@@ -154,33 +166,41 @@ void FoxgloveBridge::said_binary(Client client, std::string_view message) {
 
 void FoxgloveBridge::subscribe(Client client, std::uint32_t subscription,
                                std::uint32_t channel_id) {
-  auto& subscriptions = clients_.at(client).channels;
+  Subscriber& subscriber = clients_.at(client);
   const auto channel = channels_.find(channel_id);
   if (channel == channels_.end() || !channel->second.is_there) {
     return send_error(client, fmt::format("there is no channel {}", channel_id));
   }
-  if (!subscriptions.emplace(subscription, channel_id).second) {
+  if (subscriber.channels.contains(subscription)) {
     return send_error(client, fmt::format("subscription {} is used already", subscription));
   }
+  if (const auto same = subscriber.subscriptions.find(channel_id);
+      same != subscriber.subscriptions.end()) {
+    return send_error(client, fmt::format("channel {} has the subscription {} already: a channel "
+                                          "has one of each client",
+                                          channel_id, same->second));
+  }
+  subscriber.channels[subscription] = channel_id;
+  subscriber.subscriptions[channel_id] = subscription;
   if (!channel->second.is_watched) return watch(channel->second);
   for (const Message& message : channel->second.kept) send(client, subscription, message);
 }
 
 void FoxgloveBridge::unsubscribe(Client client, std::uint32_t subscription) {
-  auto& subscriptions = clients_.at(client).channels;
-  const auto found = subscriptions.find(subscription);
-  if (found == subscriptions.end()) return;
+  Subscriber& subscriber = clients_.at(client);
+  const auto found = subscriber.channels.find(subscription);
+  if (found == subscriber.channels.end()) return;
   const std::uint32_t channel = found->second;
-  subscriptions.erase(found);
+  subscriber.channels.erase(found);
+  subscriber.subscriptions.erase(channel);
   leave_alone(channel);
 }
 
 void FoxgloveBridge::leave_alone(std::uint32_t channel_id) {
-  for (const auto& [client, subscriber] : clients_) {
-    for (const auto& [subscription, channel] : subscriber.channels) {
-      if (channel == channel_id) return;
-    }
-  }
+  const auto reads = [&](const auto& entry) {
+    return entry.second.subscriptions.contains(channel_id);
+  };
+  if (std::ranges::any_of(clients_, reads)) return;
   Channel& channel = channels_.at(channel_id);
   if (!std::exchange(channel.is_watched, false)) return;
   topics_.unwatch(channel.topic.name);
@@ -210,7 +230,10 @@ void FoxgloveBridge::look() {
     channel.kept.clear();
     if (std::exchange(channel.is_watched, false)) topics_.unwatch(channel.topic.name);
     for (auto& [client, subscriber] : clients_) {
-      std::erase_if(subscriber.channels, [&](const auto& entry) { return entry.second == id; });
+      const auto found = subscriber.subscriptions.find(id);
+      if (found == subscriber.subscriptions.end()) continue;
+      subscriber.channels.erase(found->second);
+      subscriber.subscriptions.erase(found);
     }
     gone.push_back(id);
   }
@@ -268,9 +291,8 @@ void FoxgloveBridge::forward() {
   for (const auto& [id, message] : messages) {
     Channel& channel = channels_.at(id);
     for (const auto& [client, subscriber] : clients_) {
-      for (const auto& [subscription, subscribed] : subscriber.channels) {
-        if (subscribed == id) send(client, subscription, message);
-      }
+      const auto found = subscriber.subscriptions.find(id);
+      if (found != subscriber.subscriptions.end()) send(client, found->second, message);
     }
     if (channel.topic.keeps == 0 || !channel.is_watched) continue;
     if (channel.kept.size() >= channel.topic.keeps) channel.kept.pop_front();
@@ -329,7 +351,8 @@ void FoxgloveBridge::tell_refusal(const WebServer::Refusal& refusal) {
 void FoxgloveBridge::tell_dropped() {
   for (auto& [client, subscriber] : clients_) {
     const std::uint64_t dropped = server_.dropped(client);
-    if (dropped == subscriber.told_dropped) continue;
+    // Who has not read what it was told last is told all of it later.
+    if (dropped == subscriber.told_dropped || server_.is_behind(client)) continue;
     server_.send(client,
                  status(kWarning, fmt::format("{} messages were dropped: they came faster than "
                                               "this client reads",

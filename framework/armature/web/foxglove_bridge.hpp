@@ -20,7 +20,8 @@
 namespace armature ARMATURE_EXPORT {
 
 /// Shows topics to programs that speak Foxglove's WebSocket protocol: raw CDR with ros2msg schemas.
-/// A topic is read only while somebody is subscribed to it; nothing can be published through it. A
+/// A topic is read only while somebody is subscribed to it, once at most from each client; nothing
+/// can be published through it. A
 /// recording can be played, paused and sought in by clients that speak foxglove.sdk.v1.
 /// Source: github.com/foxglove/ws-protocol, docs/spec.md (foxglove.websocket.v1; foxglove.sdk.v1
 /// frames its messages in the same way and adds those of playback).
@@ -64,6 +65,7 @@ class FoxgloveBridge {
   struct Subscriber {
     bool controls = false;                            // its protocol has messages of playback
     std::map<std::uint32_t, std::uint32_t> channels;  // by the client's number of the subscription
+    std::map<std::uint32_t, std::uint32_t> subscriptions;  // the other way round: one of a channel
     std::uint64_t told_dropped = 0;
   };
 

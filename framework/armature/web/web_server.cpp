@@ -9,21 +9,22 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
-#include <deque>
 #include <map>
 #include <stdexcept>
 #include <utility>
 
+#include "armature/web/outgoing_queue.hpp"
 #include "armature/web/web_admission.hpp"
 
 namespace armature {
 namespace {
 
 constexpr std::size_t kLongestText = 1U << 20;  // [byte] of what a client says
-constexpr std::size_t kHead = 16;
 constexpr const char* kNoProtocol = "http-only";
 constexpr std::size_t kPagePart = 32U << 10;  // [byte] of a page, at a time
 constexpr int kPagePatience_s = 20;           // for who reads no part of it
+constexpr int kFarewell_s = 2;                // to take the reason why it is closed
+constexpr std::string_view kFarewell = "too little of what was sent is read";
 
 std::string header_of(lws* connection, lws_token_indexes header) {
   std::string text(static_cast<std::size_t>(lws_hdr_total_length(connection, header)) + 1, '\0');
@@ -32,23 +33,12 @@ std::string header_of(lws* connection, lws_token_indexes header) {
   return text;
 }
 
-struct Outgoing {
-  bool binary = false;
-  bool may_drop = false;
-  std::string text;  // or a binary message that is not shared
-  std::array<std::byte, kHead> head{};
-  std::size_t head_size = 0;
-  WebServer::Body body;
-
-  std::size_t size() const { return text.size() + head_size + (body ? body->size() : 0); }
-};
-
 struct Session {
   lws* connection = nullptr;
-  std::deque<Outgoing> queue;
-  std::size_t queued_bytes = 0;  // of messages that may be dropped
+  OutgoingQueue queue;
   std::uint64_t dropped = 0;
   std::string heard;  // the beginning of a message
+  bool is_shown_out = false;
 };
 
 /// Ends the wait of lws_service.
@@ -119,17 +109,22 @@ class WebServer::Impl {
     const auto found = sessions_.find(client);
     if (found == sessions_.end()) return;
     Session& session = found->second;
-    if (message.may_drop) {
-      session.queued_bytes += message.size();
-      while (session.queued_bytes > options_.queue_bytes && drop_oldest(session)) continue;
-      if (session.queued_bytes > options_.queue_bytes) {  // larger than the whole queue
-        session.queued_bytes -= message.size();
-        ++session.dropped;
-        return;
-      }
+    if (session.is_shown_out) return;
+    const bool may_drop = message.may_drop;
+    const std::size_t alone = message.room();
+    session.queue.put(std::move(message));
+    while (session.queue.bytes() > options_.queue_bytes && session.queue.drop_oldest()) {
+      ++session.dropped;
     }
-    session.queue.push_back(std::move(message));
+    // One that must arrive may be larger than the queue: a long list of topics.
+    if (!may_drop && session.queue.bytes() > std::max(options_.queue_bytes, alone)) {
+      return show_out(session);
+    }
     lws_callback_on_writable(session.connection);
+  }
+  bool is_behind(Client client) const {
+    const auto found = sessions_.find(client);
+    return found != sessions_.end() && found->second.queue.has_lasting();
   }
   std::uint64_t dropped(Client client) const {
     const auto found = sessions_.find(client);
@@ -273,8 +268,24 @@ class WebServer::Impl {
     return lws_http_transaction_completed(connection) != 0 ? -1 : 0;
   }
 
+  /// Closes a client as soon as it takes the reason, or a little later without it.
+  void show_out(Session& session) const {
+    session.is_shown_out = true;
+    session.queue.clear();
+    std::array<char, 512> address{};
+    const char* peer = lws_get_peer_simple(session.connection, address.data(), address.size());
+    const std::string who = peer ? peer : "an unknown address";
+    events_.refused({.about = who + ", which reads too little",
+                     .why = fmt::format("a WebSocket client at {} was closed: it reads too little "
+                                        "of what it is sent, and more than {} bytes wait for it",
+                                        who, options_.queue_bytes)});
+    lws_set_timeout(session.connection, PENDING_TIMEOUT_CLOSE_SEND, kFarewell_s);
+    lws_callback_on_writable(session.connection);
+  }
+
   int hear(lws* connection, Client client, std::string_view part) {
     Session& session = sessions_.at(client);
+    if (session.is_shown_out) return 0;
     if (session.heard.size() + part.size() > kLongestText) return -1;
     session.heard += part;
     if (lws_is_final_fragment(connection) == 0 || lws_remaining_packet_payload(connection) != 0) {
@@ -287,10 +298,14 @@ class WebServer::Impl {
   }
 
   int write_next(lws* connection, Session& session) {
+    if (session.is_shown_out) {
+      std::string why{kFarewell};
+      lws_close_reason(connection, LWS_CLOSE_STATUS_POLICY_VIOLATION,
+                       reinterpret_cast<unsigned char*>(why.data()), why.size());
+      return -1;
+    }
     if (session.queue.empty()) return 0;
-    const Outgoing message = std::move(session.queue.front());
-    session.queue.pop_front();
-    if (message.may_drop) session.queued_bytes -= message.size();
+    const Outgoing message = session.queue.take();
     scratch_.resize(LWS_PRE + message.size());
     unsigned char* at = scratch_.data() + LWS_PRE;
     std::memcpy(at, message.text.data(), message.text.size());
@@ -303,15 +318,6 @@ class WebServer::Impl {
     if (written < static_cast<int>(message.size())) return -1;
     if (!session.queue.empty()) lws_callback_on_writable(connection);
     return 0;
-  }
-
-  static bool drop_oldest(Session& session) {
-    const auto oldest = std::ranges::find(session.queue, true, &Outgoing::may_drop);
-    if (oldest == session.queue.end()) return false;
-    session.queued_bytes -= oldest->size();
-    session.queue.erase(oldest);
-    ++session.dropped;
-    return true;
   }
 
   Options options_;
@@ -352,5 +358,6 @@ void WebServer::send_for_sure(Client client, std::span<const std::byte> message)
 }
 
 std::uint64_t WebServer::dropped(Client client) const { return impl_->dropped(client); }
+bool WebServer::is_behind(Client client) const { return impl_->is_behind(client); }
 
 }  // namespace armature

@@ -16,7 +16,8 @@
 namespace armature ARMATURE_EXPORT {
 
 /// A WebSocket server on one thread. A client that reads slowly has a bounded queue, and loses its
-/// oldest binary messages when that is full: it slows nobody. Clients are refused that ask for no
+/// oldest binary messages when that is full; where those that must not be lost fill it, the client
+/// is closed, and told why. It slows nobody. Clients are refused that ask for no
 /// protocol the server speaks, that come from a page of a foreign origin, or have no right token;
 /// the answer of HTTP tells them why.
 class WebServer {
@@ -35,11 +36,11 @@ class WebServer {
     std::vector<std::string> origins;
     std::string origin_option = "--origin";  // what lets another one in, for people
     std::string token;                       // empty: none is asked for
-    std::size_t queue_bytes = 16U << 20;     // of a client
+    std::size_t queue_bytes = 16U << 20;     // of all that waits for a client to read it
     Page page;                               // for whoever comes with a browser
   };
   using Client = std::uint64_t;  // never used twice
-  /// Somebody was not let in.
+  /// Somebody was not let in, or shown out.
   struct Refusal {
     std::string about;  // the same for what one need not be told twice
     std::string why;    // and what would let him in
@@ -77,6 +78,8 @@ class WebServer {
   void send_for_sure(Client client, std::span<const std::byte> message);
   /// The number of binary messages that this client has lost.
   std::uint64_t dropped(Client client) const;
+  /// Whether anything that is not dropped still waits for this client to read it.
+  bool is_behind(Client client) const;
 
  private:
   class Impl;

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <span>
 #include <thread>
 #include <vector>
@@ -36,6 +37,7 @@ class WebServerTest : public testing::Test {
                  .closed = [this](WebServer::Client) { ++closed_; },
                  .said =
                      [this](WebServer::Client client, std::string_view text) {
+                       if (text == "much") return say_much(client);
                        server_.send(client, "heard " + std::string{text});
                      },
                  .said_binary =
@@ -66,6 +68,10 @@ class WebServerTest : public testing::Test {
     }
     dropped_of_first_ = server_.dropped(1);
     ++rounds_;
+  }
+  /// Ten times what waits for a client, in texts of 1 kB.
+  void say_much(WebServer::Client client) {
+    for (int i = 0; i < 640; ++i) server_.send(client, std::string(1024, 'x'));
   }
   bool opens(const std::string& headers, const std::string& path = "/") {
     return WebSocket{server_.port(), headers, path}.is_open();
@@ -174,6 +180,17 @@ TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOldestMessagesAndSlowsNobody
   }
 }
 
+TEST_F(WebServerTest, WhoIsClosedIsToldWhyAsSoonAsItReads) {
+  WebSocket lazy{server_.port(), kProtocol};
+  ASSERT_TRUE(lazy.is_open());
+  lazy.send_text("much");
+  std::optional<WebSocket::Frame> last = lazy.next();
+  while (last && last->op != 8) last = lazy.next();
+  ASSERT_TRUE(last) << "no close";
+  ASSERT_GT(last->payload.size(), 2U);
+  EXPECT_EQ(last->payload.substr(2), "too little of what was sent is read");
+}
+
 TEST_F(WebServerTest, WhoSaysTooMuchIsShownOut) {
   WebSocket socket{server_.port(), kProtocol};
   for (int i = 0; i < 100 && socket.is_open(); ++i) {
@@ -185,6 +202,31 @@ TEST_F(WebServerTest, WhoSaysTooMuchIsShownOut) {
   EXPECT_EQ(closed_, 1) << "6 MB without an end";
   WebSocket other{server_.port(), kProtocol};
   EXPECT_TRUE(other.is_open()) << "the server goes on";
+}
+
+class WebServerWithRoom : public WebServerTest {
+ protected:
+  WebServerWithRoom() : WebServerTest{{.protocols = {"lamp.v1"}, .queue_bytes = 1 << 20}} {}
+};
+
+TEST_F(WebServerWithRoom, ClosesWhoSaysMuchAndReadsNoAnswer) {
+  WebSocket lazy{server_.port(), kProtocol}, reader{server_.port(), kProtocol};
+  ASSERT_TRUE(lazy.is_open() && reader.is_open());
+  // Answers of 300 MB; sockets keep the first of them until they take no more.
+  for (int i = 0; i < 5000 && lazy.is_open(); ++i) lazy.send_text(std::string(60'000, 'x'));
+  for (int i = 0; i < 2000 && closed_ == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
+  EXPECT_EQ(closed_, 1);
+  reader.send_text("light");
+  const auto frame = reader.next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->payload, "heard light") << "nobody else is";
+  end();
+  ASSERT_EQ(refusals_.size(), 1U);
+  EXPECT_EQ(refusals_[0].why,
+            "a WebSocket client at 127.0.0.1 was closed: it reads too little of what it is sent, "
+            "and more than 1048576 bytes wait for it");
 }
 
 class WebServerWithToken : public WebServerTest {

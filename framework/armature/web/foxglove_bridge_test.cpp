@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// What clients that mean no good cost the bridge: what they are told back, and how many
+// subscriptions each has. The topics are the test's own.
+#include "armature/web/foxglove_bridge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "armature/web/web_socket.hpp"
+
+namespace armature {
+namespace {
+
+using nlohmann::json;
+
+/// One topic, whose messages the test writes.
+class OneTopic final : public TopicSource {
+ public:
+  std::vector<Topic> topics() const override { return {{.name = "/light", .type = "Light"}}; }
+  Schema schema_of(const Topic&) const override { return {"lamp/msg/Light", "float64 lux"}; }
+  bool watch(const std::string&, OnMessage on_message) override {
+    const std::scoped_lock lock{mutex_};
+    on_message_ = std::move(on_message);
+    return true;
+  }
+  void unwatch(const std::string&) override {
+    const std::scoped_lock lock{mutex_};
+    on_message_ = nullptr;
+  }
+
+  bool write(const std::string& text) {
+    const std::scoped_lock lock{mutex_};
+    if (!on_message_) return false;
+    on_message_({.time = Time{1}, .cdr = std::as_bytes(std::span{text})});
+    return true;
+  }
+
+ private:
+  std::mutex mutex_;
+  OnMessage on_message_;
+};
+
+class FoxgloveBridgeTest : public testing::Test {
+ protected:
+  FoxgloveBridgeTest() : thread_{[this] { bridge_.run([this] { return ends_.load(); }); }} {
+    for (auto frame = socket_.next(); frame; frame = socket_.next()) {
+      const json told = json::parse(frame->payload);
+      if (told["op"] != "advertise") continue;
+      channel_ = told["channels"][0]["id"];
+      return;
+    }
+    ADD_FAILURE() << "the topic was not advertised";
+  }
+  ~FoxgloveBridgeTest() override {
+    ends_ = true;
+    thread_.join();
+  }
+
+  std::string answer_to(const std::string& said) {
+    socket_.send_text(said);
+    for (auto frame = socket_.next(); frame; frame = socket_.next()) {
+      if (frame->op == 1) return json::parse(frame->payload).value("message", "");
+    }
+    return "";
+  }
+  json subscription(int id) const { return {{"id", id}, {"channelId", channel_}}; }
+
+  OneTopic topic_;
+  std::atomic<bool> ends_{false};
+  FoxgloveBridge bridge_{topic_, {.server = {.protocols = {"foxglove.websocket.v1"}}}};
+  std::thread thread_;
+  WebSocket socket_{bridge_.port(), "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n"};
+  int channel_ = 0;
+};
+
+TEST_F(FoxgloveBridgeTest, TellsBackTheBeginningOfWhatWasSaid) {
+  EXPECT_EQ(answer_to(json{{"op", std::string(60'000, 'x')}}.dump()),
+            "'" + std::string(80, 'x') + "...' is not done here: a monitor only shows");
+  std::string umlauts;
+  for (int i = 0; i < 81; ++i) umlauts += "ä";
+  EXPECT_EQ(answer_to(json{{"op", umlauts}}.dump()),
+            "'" + umlauts.substr(0, 160) + "...' is not done here: a monitor only shows");
+}
+
+TEST_F(FoxgloveBridgeTest, GivesAClientOneSubscriptionOfAChannel) {
+  json many = json::array();
+  for (int id = 1; id <= 1000; ++id) many.push_back(subscription(id));
+  const std::string refused = answer_to(json{{"op", "subscribe"}, {"subscriptions", many}}.dump());
+  EXPECT_EQ(refused, "channel " + std::to_string(channel_) +
+                         " has the subscription 1 already: a channel has one of each client");
+  ASSERT_TRUE(topic_.write("bright") && topic_.write("dark"));
+  std::vector<std::string> messages;
+  while (messages.size() < 2) {
+    const auto frame = socket_.next();
+    ASSERT_TRUE(frame);
+    if (frame->op == 2) messages.push_back(frame->payload.substr(13));
+  }
+  EXPECT_EQ(messages, (std::vector<std::string>{"bright", "dark"})) << "each of them once";
+}
+
+TEST_F(FoxgloveBridgeTest, TakesAnotherNumberOnceTheFirstIsGivenBack) {
+  socket_.send_text(json{{"op", "subscribe"}, {"subscriptions", {subscription(1)}}}.dump());
+  socket_.send_text(R"({"op": "unsubscribe", "subscriptionIds": [1]})");
+  socket_.send_text(json{{"op", "subscribe"}, {"subscriptions", {subscription(2)}}}.dump());
+  EXPECT_EQ(answer_to(R"({"op": "end"})"), "'end' is not done here: a monitor only shows");
+  ASSERT_TRUE(topic_.write("bright"));
+  const auto frame = socket_.next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->op, 2);
+  EXPECT_EQ(frame->payload[1], 2) << "the number of the subscription";
+}
+
+}  // namespace
+}  // namespace armature

@@ -13,15 +13,10 @@ constexpr std::size_t kLongestLine = 4096;
 constexpr std::size_t kLastWords = 160;
 constexpr int kPieces = 16;  // at a time: who never stops talking must not hold us
 
-/// In one piece, so that lines of several writers stay apart.
-void write_to_standard_error(const std::string& text) {
-  [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
-}
-
 }  // namespace
 
 ErrorRelay::ErrorRelay(FileDescriptor from, std::string name)
-    : from_{std::move(from)}, name_{std::move(name)} {}
+    : from_{std::move(from)}, to_{std::move(name)} {}
 
 void ErrorRelay::pass_on() {
   for (int piece = 0; piece < kPieces && from_; ++piece) {
@@ -42,10 +37,11 @@ void ErrorRelay::pass_on() {
 void ErrorRelay::finish() {
   pass_on();
   if (!begun_.empty()) pass_on_line(std::exchange(begun_, ""));
+  to_.tell_dropped();
 }
 
 void ErrorRelay::pass_on_line(const std::string& line) {
-  write_to_standard_error(name_ + ": " + line + "\n");
+  to_.put(line);
   std::string words = line.substr(0, kLastWords);
   bool blank = true;
   for (char& c : words) {

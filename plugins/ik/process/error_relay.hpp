@@ -4,12 +4,13 @@
 #include <string>
 
 #include "file_descriptor.hpp"
+#include "standard_error.hpp"
 
 namespace armature::ik::process {
 
 /// Passes on what a program writes to its standard error: to ours, line by line, each behind its
 /// name. It is read while the program is asked or ended, not in between; a program that says much
-/// meanwhile waits.
+/// meanwhile waits. We wait for nobody who reads ours.
 class ErrorRelay {
  public:
   /// `from` does not block.
@@ -29,7 +30,8 @@ class ErrorRelay {
   void pass_on_line(const std::string& line);
 
   FileDescriptor from_;
-  std::string name_, begun_, last_words_;
+  StandardError to_;
+  std::string begun_, last_words_;
 };
 
 }  // namespace armature::ik::process

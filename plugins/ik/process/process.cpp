@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 #include "armature/robot/kinematics/kinematics.hpp"
@@ -153,7 +152,7 @@ IkStatus Process::refused(const std::string& what) const {
 
 std::string_view Process::kept(const std::string& detail) const {
   if (const auto lasting = lasting_detail(detail)) return *lasting;
-  fmt::print(stderr, "ik/process ({}): {}\n", command_.text(), detail);
+  errors_.put(detail);
   return "a reason behind 1024 different ones: it is printed on standard error";
 }
 

@@ -10,6 +10,7 @@
 #include "armature/kinds/ik/lines/asking.hpp"
 #include "ik_process_parameters.hpp"
 #include "program.hpp"
+#include "standard_error.hpp"
 
 namespace armature::ik::process {
 
@@ -33,7 +34,10 @@ class Process final : public IkSolver {
 
  private:
   Process(const RobotModel& model, Command command, const Parameters& parameters)
-      : model_{&model}, command_{std::move(command)}, parameters_{parameters} {}
+      : model_{&model},
+        command_{std::move(command)},
+        parameters_{parameters},
+        errors_{"ik/process (" + command_.text() + ")"} {}
 
   Expected<ToldAnswer> ask(IkQuestion question) const;
   Expected<ToldAnswer> ask_once(IkQuestion question) const;
@@ -53,6 +57,7 @@ class Process final : public IkSolver {
   mutable std::int64_t questions_ = 0;
   mutable std::uint64_t failures_ = 0;  // in a row
   mutable std::string last_failure_;    // and what comes next
+  mutable StandardError errors_;
 };
 
 }  // namespace armature::ik::process

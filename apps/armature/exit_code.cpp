@@ -5,8 +5,10 @@
 #include <cstdio>
 #include <cstring>
 #include <iostream>
+#include <string>
 
 #include "armature/config/problems.hpp"
+#include "armature/runtime/plugins/exit_guard.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "colour.hpp"
 
@@ -34,6 +36,8 @@ int exit_code_of(const std::exception& error) {
 }
 
 int exit_code_of(const std::function<int()>& action) {
+  const ExitGuard guard{
+      [](const std::string& what) { std::fprintf(stderr, "armature: %s\n", what.c_str()); }};
   try {
     return printed(action());
   } catch (const config::ConfigError& error) {  // whose lines begin with their place

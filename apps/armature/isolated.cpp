@@ -21,26 +21,36 @@
 #include <thread>
 #include <vector>
 
+#include "armature/runtime/plugins/exit_guard.hpp"
+
 namespace armature {
 namespace {
+
+// The last byte that the process writes: without one it was ended by its work.
+constexpr char kResult = 'r', kFault = 'f';
+
+/// True when all of it was written.
+bool tell(int to, std::string text, char last) {
+  text += last;
+  for (std::size_t written = 0; written < text.size();) {
+    const ssize_t n = write(to, text.data() + written, text.size() - written);
+    if (n < 0 && errno != EINTR) return false;
+    if (n > 0) written += static_cast<std::size_t>(n);
+  }
+  return true;
+}
 
 [[noreturn]] void work_and_exit(int to, const std::function<std::string()>& work) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);
-  std::string result;
+  const ExitGuard guard{[to](const std::string& what) { tell(to, what, kFault); }};
   try {
-    result = work();
+    _exit(tell(to, work(), kResult) ? 0 : 1);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "armature: %s\n", error.what());
     _exit(1);
   }
-  for (std::size_t written = 0; written < result.size();) {
-    const ssize_t n = write(to, result.data() + written, result.size() - written);
-    if (n < 0 && errno != EINTR) _exit(1);
-    if (n > 0) written += static_cast<std::size_t>(n);
-  }
-  _exit(0);
 }
 
 int wait_for(pid_t child) {
@@ -92,14 +102,21 @@ Isolated IsolatedWork::outcome() {
   if (!told_all_) kill(child_, SIGKILL);
   const int status = wait_for(child_);
   child_ = -1;
-  Isolated outcome{.result = result_, .fault = ""};
-  if (!told_all_) {
+  Isolated outcome;
+  const char last = result_.empty() ? '\0' : result_.back();
+  if (told_all_ && last == kResult && WIFEXITED(status)) {
+    result_.pop_back();
+    outcome.result = result_;
+  } else if (told_all_ && last == kFault) {
+    result_.pop_back();
+    outcome.fault = result_;
+  } else if (!told_all_) {
     outcome.fault = fmt::format("not done after {:g} s", timeout_s_);
     outcome.timed_out = true;
   } else if (WIFSIGNALED(status)) {
     outcome.fault =
         fmt::format("killed by signal {} ({})", WTERMSIG(status), strsignal(WTERMSIG(status)));
-  } else if (WEXITSTATUS(status) != 0) {
+  } else {
     outcome.fault = fmt::format("it ends the process (exit code {})", WEXITSTATUS(status));
   }
   return outcome;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string_view>
@@ -15,6 +16,7 @@
 #include "armature/runtime/deployment/deployment.hpp"
 #include "armature/runtime/deployment_file/component_config.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
+#include "armature/runtime/plugins/exit_guard.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
@@ -152,8 +154,16 @@ Json findings_json(const Findings& findings, Json problems) {
   return json;
 }
 
+void print_json(const Findings& findings, Json problems) {
+  fmt::print("{}\n", json_text(findings_json(findings, std::move(problems))));
+}
+
 int check_as_json(const DeploymentSource& source) {
   Findings findings;
+  const ExitGuard guard{[&](const std::string& what) {
+    print_json(findings, Json::array({Json{{"text", what}}}));
+    std::fflush(stdout);
+  }};
   Json problems = Json::array();
   int code = kOk;
   try {
@@ -164,8 +174,7 @@ int check_as_json(const DeploymentSource& source) {
     problems = problems_json(error);
     code = exit_code_of(error);
   }
-  const Json json = findings_json(findings, std::move(problems));
-  fmt::print("{}\n", json_text(json));
+  print_json(findings, std::move(problems));
   return code;
 }
 

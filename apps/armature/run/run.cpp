@@ -20,6 +20,7 @@
 #include "armature/runtime/deployment/deployment.hpp"
 #include "armature/runtime/deployment_file/injected_fault.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
+#include "armature/runtime/plugins/exit_guard.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/processes/arm_ownership.hpp"
 #include "armature/runtime/processes/child_processes.hpp"
@@ -293,6 +294,7 @@ int run(RunOptions options) {
   std::optional<ChildWatch> child_watch;
   if (is_child) child_watch.emplace(console, options.control);
   WatchedEnd end{options, console, is_child ? &*child_watch : nullptr};
+  const ExitGuard guard{[&](const std::string& what) { end.leave(what); }};
   name_crashing_components();
   if (!is_child) console.line("runtime", starting_text(config));
   Deployment deployment{
@@ -306,6 +308,7 @@ int run(RunOptions options) {
        .on_ending = [&](const auto& what) { end.begin(what); },
        .domain = process.domain}};
   if (injected) deployment.inject(*injected);
+  ExitGuard::go_first();
   end_signals::stop_in_order();
   if (is_child && options.control >= 0) prctl(PR_SET_PDEATHSIG, 0);
   if (!options.origin) process.origin.start = deployment.clock().now();

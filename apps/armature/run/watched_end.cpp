@@ -40,11 +40,11 @@ void WatchedEnd::do_unwatched(const std::function<void()>& work) {
   watch();
 }
 
-void WatchedEnd::leave(const std::string& hung) const {
+void WatchedEnd::leave(const std::string& fault) const {
   constexpr unsigned kFileWithin_s = 2;
-  if (child_) child_->tell_fault(hung);
-  if (!child_ || child_->alone()) console_->tell(hung);
-  const std::string told = ending("fault", hung);
+  if (child_) child_->tell_fault(fault);
+  if (!child_ || child_->alone()) console_->tell(fault);
+  const std::string told = ending("fault", fault);
   if (options_->json && !result_told_) write_out(told);
   console_->flush();
   if (options_->report && !child_ && !result_told_) {

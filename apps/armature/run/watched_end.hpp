@@ -24,11 +24,12 @@ class WatchedEnd {
   void result_told() { result_told_ = true; }
   /// For work on files, which takes as long as they are; `work` throws nothing.
   void do_unwatched(const std::function<void()>& work);
+  /// Tells a fault that leaves nothing to wait for, and leaves. The thread that ends may hold the
+  /// lock of a standard stream.
+  [[noreturn]] void leave(const std::string& fault) const;
 
  private:
   void watch();
-  /// The thread that ends may hold the lock of a standard stream.
-  [[noreturn]] void leave(const std::string& hung) const;
 
   const RunOptions* options_;
   Console* console_;

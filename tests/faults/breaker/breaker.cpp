@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -21,6 +22,7 @@ class Breaker final : public Component {
         note_{setup.output<msg::String>("note")} {
     setup.activate_every(seconds(0.02));
     if (parameters_.breaks == Parameters::Breaks::crashes_when_made) std::raise(SIGSEGV);
+    if (parameters_.breaks == Parameters::Breaks::exits_when_made) std::exit(0);
   }
   ~Breaker() override {
     if (parameters_.breaks == Parameters::Breaks::crashes_at_its_end) std::raise(SIGSEGV);
@@ -47,6 +49,7 @@ class Breaker final : public Component {
     if (breaks == hangs)
       std::this_thread::sleep_for(std::chrono::duration<double>{parameters_.hangs});
     if (breaks == crashes) std::raise(SIGSEGV);
+    if (breaks == exits) std::exit(0);
   }
 
   Parameters parameters_;

@@ -7,6 +7,7 @@
 #include <array>
 #include <csignal>
 
+#include "armature/runtime/plugins/running_code.hpp"
 #include "armature/values/sanitizer.hpp"
 
 namespace armature {
@@ -54,12 +55,12 @@ class Line {
 void on_crash(int signal) {
   Line line;
   line.add("armature: ");
-  if (t_name) {
-    line.add(t_what);
+  if (const RunningCode running = running_code(); running.name) {
+    line.add(running.what);
     line.add(" '");
-    line.add(t_name);
+    line.add(running.name);
     line.add("' crashed in its ");
-    line.add(t_phase);
+    line.add(running.phase);
   } else {
     line.add("crashed outside of a component's step");
   }
@@ -71,6 +72,8 @@ void on_crash(int signal) {
 }
 
 }  // namespace
+
+RunningCode running_code() { return {.what = t_what, .name = t_name, .phase = t_phase}; }
 
 RunningComponent::RunningComponent(const std::string& name, const char* phase, const char* what)
     : outer_name_{t_name}, outer_phase_{t_phase}, outer_what_{t_what} {

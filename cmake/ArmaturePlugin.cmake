@@ -113,7 +113,7 @@ function(armature_add_plugin id)
 
   set(parameters "${CMAKE_CURRENT_BINARY_DIR}/${target}_parameters.hpp")
   add_custom_command(OUTPUT "${parameters}"
-                     COMMAND Armature::parameters plugin.yaml "${parameters}"
+                     COMMAND Armature::parameters plugin.yaml "${parameters}" "${id}"
                      WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
                      DEPENDS plugin.yaml Armature::parameters VERBATIM)
   armature_add_plugin_library(${target})

@@ -68,6 +68,13 @@ TEST_F(Schema, RefusesMisspeltKeysWrongTypesAndNumbersOutOfRange) {
   expect_refused(wrong);
 }
 
+TEST_F(Schema, RefusesAsReadingDoesANameThatCannotBeANamespace) {
+  expect_refused({{"armature: 1\nname: ''\n", "''"},
+                  {"armature: 1\nname: 7th\n", "'7th'"},
+                  {"armature: 1\nname: " + std::string(65, 'n') + "\n", "nnn"}});
+  EXPECT_EQ(judged_text("armature: 1\nname: " + std::string(64, 'n') + "\n"), "");
+}
+
 TEST_F(Schema, TakesVariablesForNumbersFlagsWordsAndPlugins) {
   EXPECT_EQ(judged_text("armature: 1\nname: ${NAME}\ndomain: ${DOMAIN:-3}\nclock: ${CLOCK}\n"
                         "executors: {control: {period_s: \"${PERIOD:-1e-3}\", lock_memory: "

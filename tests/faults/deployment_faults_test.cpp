@@ -181,6 +181,13 @@ const Fault kFaults[] = {
     {"NameWithSlash", "name: faulty", "name: lamp/one",
      "deployment.yaml:2:7: 'lamp/one' must consist of letters, digits and '_', and begin with no "
      "digit: it is the namespace of the topics\n"},
+    {"NameThatIsEmpty", "name: faulty", "name: ''",
+     "deployment.yaml:2:7: '' must consist of letters, digits and '_', and begin with no digit: it "
+     "is the namespace of the topics\n"},
+    {"NameThatIsTooLongForDds", "name: faulty",
+     "name: a123456789a123456789a123456789a123456789a123456789a123456789a1234",
+     "deployment.yaml:2:7: 'a123456789a12345...' has 65 letters, and a name has at most 64: it is "
+     "the namespace of the topics\n"},
     {"TabForIndentation", "    executor: control", "	executor: control",
      "deployment.yaml:14:2: cannot be read as YAML: end of map not found; indent with spaces, not "
      "tabs\n"},
@@ -499,6 +506,30 @@ TEST_F(SoundDeployment, AProgramThatAParameterNamesIsNotRunByTheCheck) {
 }
 
 using SplitDeployment = FaultyDeployment;
+
+TEST_F(SplitDeployment, AProcessHasAName) {
+  for (const std::string name : {"../x", "-v", "a b"}) {
+    const auto result = check({kSystemClock,
+                               {"{plugin: face_pose/three_point}",
+                                "{plugin: face_pose/three_point, process: '" + name + "'}"}});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_EQ(result.err, "deployment.yaml:10:50: '" + name +
+                              "' must consist of letters, digits and '_', and begin with no "
+                              "digit\n");
+  }
+}
+
+TEST_F(SplitDeployment, ATopicThatIsTooLongForDdsIsRefusedAtItsPlace) {
+  const auto result =
+      check({{"{plugin: face_pose/three_point}",
+              "{plugin: face_pose/three_point, topics: " + std::string(250, 'f') + "}"}});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_NE(result.err.find("deployment.yaml:10:3: the topic of output 'face' has 263 letters, and "
+                            "DDS takes at most 240: shorten the deployment's name, 'topics' or the "
+                            "topic\n"),
+            std::string::npos)
+      << result.err;
+}
 
 TEST_F(SplitDeployment, AnIkProgramThatDoesNotKnowTheRobotIsRefusedWithItsAnswer) {
   const std::string command = armature() + ", ik, --robot, @CONFIGS@/robots/sr1.yaml";

@@ -105,6 +105,7 @@ Json deployment_schema(const PluginRegistry& plugins) {
     const bool is_section = key.type == config::KeySpec::Type::section;
     properties[key.name] = is_section ? section_schema(key, plugins) : schema_of(key);
   }
+  properties["name"]["pattern"] = "\\$\\{|^[A-Za-z_][A-Za-z0-9_]{0,63}$";  // see name_defect()
   Json schema{{"$schema", "https://json-schema.org/draft/2020-12/schema"},
               {"title", "Armature deployment"}};
   schema.update(map_schema("A deployment of Armature, or an overlay that changes one.",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// armature-parameters PLUGIN_YAML HEADER: what armature_add_plugin runs to make a plugin's
+// armature-parameters PLUGIN_YAML HEADER ID: what armature_add_plugin runs to make a plugin's
 // `struct Parameters`.
 #include <cstdio>
 #include <exception>
@@ -21,14 +21,15 @@ std::string text_of(const char* file) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 3) {
-    std::fputs("usage: armature-parameters plugin.yaml header.hpp\n", stderr);
+  if (argc != 4) {
+    std::fputs("usage: armature-parameters plugin.yaml header.hpp family/name\n", stderr);
     return 2;
   }
   try {
     armature::config::Problems problems;
-    const std::string header =
-        armature::parameters_header(armature::config::parse_file(argv[1]), problems);
+    const armature::config::Node manifest = armature::config::parse_file(argv[1]);
+    armature::check_plugin(manifest, argv[3], problems);
+    const std::string header = armature::parameters_header(manifest, problems);
     problems.throw_if_any();
     if (text_of(argv[2]) == header) return 0;  // nothing is compiled again
     std::ofstream file{argv[2]};

@@ -174,6 +174,17 @@ std::vector<std::string> parameter_members(const std::vector<ParamSpec>& specs) 
   return members;
 }
 
+void check_plugin(const config::Node& manifest, const std::string& id, config::Problems& problems) {
+  config::MapReader map{manifest, "plugin.yaml", problems};
+  map.read(config::format_key("armature_plugin"));
+  const std::string own = map.text("id", id);
+  if (own == id) return;
+  map.problem("id",
+              fmt::format("the id is {}, and CMakeLists.txt says armature_add_plugin({} ...): "
+                          "write the same in both",
+                          config::in_quotes(own), id));
+}
+
 std::string parameters_header(const config::Node& manifest, config::Problems& problems) {
   const config::Node* id_node = manifest.find("id");
   const std::string id = id_node ? config::as_text(*id_node, problems).value_or("") : "";

@@ -19,6 +19,10 @@ namespace armature ARMATURE_EXPORT {
 /// becomes an `enum class`. What cannot be a name in C++ is noted in `problems`.
 std::string parameters_header(const config::Node& manifest, config::Problems& problems);
 
+/// Notes a problem when plugin.yaml is of another format, or has another id than `id`, that of
+/// armature_add_plugin(), by which the plugin's code finds the struct.
+void check_plugin(const config::Node& manifest, const std::string& id, config::Problems& problems);
+
 /// The names of the struct's members, in the order of the file.
 std::vector<std::string> parameter_members(const std::vector<ParamSpec>& specs);
 

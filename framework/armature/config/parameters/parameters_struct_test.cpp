@@ -119,6 +119,21 @@ TEST(TheStructOfParameters, StandsInANamespaceThatIsOneWhateverTheIdIs) {
             std::string::npos);
 }
 
+TEST(TheStructOfParameters, IsNotMadeOfAnotherFormatOrForAnotherIdThanThatOfTheBuild) {
+  const auto said = [](const std::string& yaml) -> std::string {
+    config::Problems problems;
+    check_plugin(config::parse_text(yaml, "plugin.yaml"), "arm/lab", problems);
+    return problems.empty() ? "" : config::ConfigError{problems.sorted()}.what();
+  };
+  EXPECT_EQ(said("armature_plugin: 1\nid: arm/lab\n"), "");
+  EXPECT_EQ(said("armature_plugin: 1\nid: arm/lib\n"),
+            "plugin.yaml:2:5: the id is 'arm/lib', and CMakeLists.txt says "
+            "armature_add_plugin(arm/lab ...): write the same in both");
+  EXPECT_EQ(said("armature_plugin: 2\nid: arm/lab\n"),
+            "plugin.yaml:1:18: 'armature_plugin' is 2, must be 1: the format that this version "
+            "reads");
+}
+
 TEST(TheStructOfParameters, IsNotMadeOfAChoiceThatIsNoName) {
   EXPECT_EQ(refusal("  photo: {type: choice, choices: [a-b], default: a-b}"),
             "plugin.yaml:3:3: parameter 'photo': the choice 'a-b' must be a name, of letters, "

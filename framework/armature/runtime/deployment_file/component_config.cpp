@@ -15,6 +15,9 @@ namespace {
 using config::MapReader;
 using config::Node;
 
+/// Fast DDS holds the name of a topic, with "rt" before it, in 255 bytes; a longer one is silence.
+constexpr std::size_t kMaxTopicLength = 240;
+
 std::vector<std::string> names_of(const auto& items) {
   std::vector<std::string> names;
   for (const auto& item : items) names.push_back(item.name);
@@ -75,11 +78,19 @@ void ComponentReader::report_missing_plugin(const Node::Entry& entry) const {
                             entry.key, hint.find("did you mean") == std::string::npos ? "" : hint));
 }
 
-bool is_name(std::string_view text) {
-  const bool digit = !text.empty() && std::isdigit(static_cast<unsigned char>(text.front()));
-  return !text.empty() && !digit && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return std::isalnum(c) || c == '_';
-  });
+std::optional<std::string> name_defect(std::string_view name) {
+  constexpr std::size_t kMaxLength = 64;
+  const bool begins_well = !name.empty() && !std::isdigit(static_cast<unsigned char>(name.front()));
+  const bool is_name = begins_well && std::ranges::all_of(name, [](unsigned char c) {
+                         return std::isalnum(c) || c == '_';
+                       });
+  if (!is_name) {
+    return fmt::format("{} must consist of letters, digits and '_', and begin with no digit",
+                       config::in_quotes(name));
+  }
+  if (name.size() <= kMaxLength) return std::nullopt;
+  return fmt::format("'{}...' has {} letters, and a name has at most {}", name.substr(0, 16),
+                     name.size(), kMaxLength);
 }
 
 std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) const {
@@ -127,10 +138,8 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
                                         config::did_you_mean(component.executor, executors)));
   }
   component.host = map.text("host");
-  if (!is_name(component.host)) {
-    map.problem("host", fmt::format("'{}' must consist of letters, digits and '_', and begin with "
-                                    "no digit",
-                                    component.host));
+  if (const auto defect = name_defect(component.host)) {
+    map.problem("host", *defect);
     component.host = kMainHost;
   } else if (component.host != kMainHost && deployment_.simulated) {
     map.problem("host",
@@ -139,11 +148,7 @@ std::optional<ComponentConfig> ComponentReader::read(const Node::Entry& entry) c
   }
   component.process = map.text("process");
   if (component.process.empty()) component.process = component.host;  // the main ones' are the same
-  if (component.host != kMainHost && !is_name(component.process)) {
-    map.problem("process", fmt::format("'{}' must consist of letters, digits and '_' on another "
-                                       "host, and begin with no digit",
-                                       component.process));
-  }
+  if (const auto defect = name_defect(component.process)) map.problem("process", *defect);
   if (component.process != kMainProcess && deployment_.simulated) {
     map.problem("process",
                 "the simulated clock runs one process; remove 'process' or set "
@@ -288,6 +293,12 @@ void ComponentReader::bind_ports(const Node* renames, std::string_view direction
     }
     if (!binding.topic.starts_with('/')) {
       binding.topic = fmt::format("/{}/{}", deployment_.name, binding.topic);
+    }
+    if (binding.topic.size() > kMaxTopicLength) {
+      problems_.add(binding.origin,
+                    fmt::format("the topic of {} '{}' has {} letters, and DDS takes at most {}: "
+                                "shorten the deployment's name, 'topics' or the topic",
+                                direction, spec.name, binding.topic.size(), kMaxTopicLength));
     }
     bindings.push_back(std::move(binding));
   }

@@ -11,8 +11,10 @@
 
 namespace armature ARMATURE_EXPORT {
 
-/// Whether `text` consists of letters, digits and '_', and begins with no digit.
-bool is_name(std::string_view text);
+/// What is wrong with the name of a deployment, a process or a host, or nothing: it consists of at
+/// most 64 letters, digits and '_', and begins with no digit. It becomes a part of names in DDS,
+/// which Fast DDS holds in 255 bytes.
+std::optional<std::string> name_defect(std::string_view name);
 
 /// Reads one entry of `components:` against the manifests of the plugins it names.
 class ComponentReader {

@@ -273,10 +273,11 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   if (!check_is_deployment(root, problems)) return deployment;
   map.integer("armature");
   deployment.name = map.text("name");
-  if (!deployment.name.empty() && !is_name(deployment.name)) {
-    map.problem("name", fmt::format("'{}' must consist of letters, digits and '_', and begin "
-                                    "with no digit: it is the namespace of the topics",
-                                    deployment.name));
+  const Node* name = root.find("name");
+  const bool is_text = name && name->kind() == Node::Kind::scalar;
+  if (const auto defect = name_defect(deployment.name); defect && is_text) {
+    map.problem("name", *defect + ": it is the namespace of the topics");
+    deployment.name.clear();  // its topics are not to be wrong, too
   }
   deployment.simulated = map.text("clock") == "simulated";
   deployment.domain = static_cast<int>(map.integer("domain"));

@@ -291,7 +291,7 @@ PluginManifest parse_manifest(std::string_view yaml, std::string_view name, Prob
   PluginManifest manifest;
   const Node document = config::parse_text(yaml, name);
   MapReader map{document, "plugin.yaml", problems};
-  map.integer("armature_plugin", 0);
+  map.read(config::format_key("armature_plugin"));
   manifest.id = map.text("id");
   manifest.kind = map.text("kind");
   manifest.hosts = map.text("hosts", "");

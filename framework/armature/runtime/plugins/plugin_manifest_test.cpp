@@ -47,6 +47,26 @@ TEST(PluginManifest, ReadsWhatAPluginNeedsOffersAndMeasures) {
   EXPECT_EQ(manifest.measures[0].doc, "Of the path");
 }
 
+TEST(PluginManifest, IsRefusedInAnotherFormatAndWithoutOne) {
+  const auto said = [](const std::string& head) -> std::string {
+    config::Problems problems;
+    parse_manifest(head + "id: path/mine\nkind: path\n", "plugin.yaml", problems);
+    try {
+      problems.throw_if_any();
+    } catch (const config::ConfigError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(said("armature_plugin: 1\n"), "");
+  for (const std::string format : {"2", "-7"}) {
+    EXPECT_EQ(said("armature_plugin: " + format + "\n"),
+              "plugin.yaml:1:18: 'armature_plugin' is " + format +
+                  ", must be 1: the format that this version reads");
+  }
+  EXPECT_EQ(said(""), "plugin.yaml:1:1: missing key 'armature_plugin' in plugin.yaml");
+}
+
 TEST(PluginManifest, AMetricThatMayBeBelowZeroSaysSo) {
   const auto measures = parse("measures: {tremor_db: {signed: true, doc: Of the tip}}\n").measures;
   ASSERT_EQ(measures.size(), 1U);

@@ -100,6 +100,8 @@ class Implant {
   void set_out(Time now);
   /// Once the arm rests.
   void turn_back();
+  /// As slowly as the implant went in, to rest at the mouth of the bore, where its thread ends.
+  void turn_out();
   void come_back(Time now);
   /// Over the sites to above the first, and then to where the approach began.
   void lead_out();

@@ -165,16 +165,20 @@ TEST_F(OperatedPlacingTest, AsksBeforeTheToolChangeAndEveryImplant) {
   go_to(Phase::placed);
 }
 
-TEST_F(OperatedPlacingTest, BackInTheThreadItIsTurnedOutAsSlowly) {
+TEST_F(OperatedPlacingTest, BackInTheThreadItIsTurnedOutAsSlowlyAndThenLeavesTheMouthFreely) {
   stop_in_the_thread();
   EXPECT_EQ(say("back"), "");
   step();
   step();
   EXPECT_NEAR(goals_.back().max_speed, kImplants[0].pitch_m * 5 / (2 * M_PI), 1e-12);
-  expect_implant(goals_.back().pose, 0, 0.03);
+  expect_implant(goals_.back().pose, 0, 0.012);
   EXPECT_TRUE(task_.thread());
+  const std::size_t turned_out = goals_.size();
   for (int i = 0; i < 10 && asked().empty(); ++i) step();
   EXPECT_EQ(asked(), "implant 1") << task_.trouble();
+  ASSERT_EQ(goals_.size(), turned_out + 1);
+  expect_implant(goals_.back().pose, 0, 0.03);
+  EXPECT_EQ(goals_.back().max_speed, 0);
   EXPECT_FALSE(task_.thread());
   EXPECT_NEAR(angle_, 11, 1e-9) << "as far out as it went in";
 }
@@ -183,9 +187,26 @@ TEST_F(OperatedPlacingTest, AbortedInTheThreadItIsTurnedOutAndTheArmGoesToWhereI
   stop_in_the_thread();
   EXPECT_EQ(say("abort"), "");
   go_to(Phase::aborted);
-  EXPECT_GT(goals_[goals_.size() - 2].max_speed, 0);
+  const std::size_t to_mouth = goals_.size() - 3;
+  EXPECT_GT(goals_[to_mouth].max_speed, 0);
+  expect_implant(goals_[to_mouth].pose, 0, 0.012);
+  EXPECT_EQ(goals_[to_mouth + 1].max_speed, 0) << "out of the mouth as fast as any motion";
+  expect_implant(goals_[to_mouth + 1].pose, 0, 0.03);
   EXPECT_EQ(goals_.back().max_speed, 0);
+  EXPECT_NEAR(angle_, 11, 1e-9) << "as far out as it went in";
   EXPECT_FALSE(task_.thread());
+}
+
+TEST_F(OperatedPlacingTest, AbortedAtTheMouthItIsNotSentToWhereItIs) {
+  while (!task_.thread()) step();
+  base_T_flange_.translation() -= goals_.back().pose.position - task_.thread()->start;
+  done_ = 0;
+  step();
+  EXPECT_EQ(say("abort"), "");
+  step();
+  step();
+  expect_implant(goals_.back().pose, 0, 0.03);
+  go_to(Phase::aborted);
 }
 
 TEST_F(OperatedPlacingTest, AnAbortLeadsOutAnImplantWhoseHandpieceIsSilent) {

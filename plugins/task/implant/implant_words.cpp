@@ -80,9 +80,19 @@ void Implant::turn_back() {
   const bool approached = procedure_.step() > rounds_[round_].approach;
   homing_ = !approached;
   if (!approached) return goal_.retrace(false);
+  if (thread()) {
+    constexpr double kAtMouth_m = 1e-4;
+    if (thread()->advance_m(tool()) > kAtMouth_m) return turn_out();
+    thread_watch_.release();
+  }
   if (phase_ == Phase::aborting) return lead_out();
-  MotionGoal out = way_out(rounds_[round_].way, tool(), pass().site);
-  if (thread()) out.max_speed = pass().goal.max_speed;  // it is turned out again
+  goal_.set_once(way_out(rounds_[round_].way, tool(), pass().site));
+}
+
+void Implant::turn_out() {
+  MotionGoal out = rounds_[round_].way.passes[pass_ - 1].goal;
+  out.through.clear();
+  out.max_speed = pass().goal.max_speed;
   goal_.set_once(out);
 }
 
@@ -90,18 +100,20 @@ void Implant::lead_out() {
   const SiteWay& way = rounds_[round_].way;
   homing_ = homing_ || is_above(way, tool(), 0);
   if (homing_) return goal_.set_once({.pose = *came_from_});
-  MotionGoal out = way_out(way, tool(), 0);
-  if (thread()) out.max_speed = pass().goal.max_speed;
-  goal_.set_once(out);
+  goal_.set_once(way_out(way, tool(), 0));
 }
 
 void Implant::come_back(Time now) {
   if (goal_.state() == PursuedGoal::State::failed) {
     return refuse("the way back: " + goal_.reason());
   }
+  if (thread()) {
+    thread_watch_.release();
+    turned_ = false;
+    return;
+  }
   if (phase_ == Phase::aborting && !homing_) {
     homing_ = true;
-    thread_watch_.release();
     return lead_out();
   }
   turned_ = false;

@@ -17,7 +17,8 @@ namespace armature ARMATURE_EXPORT {
 ///
 /// Refuses with a reason: too few of either, points that no choice fits, a mirror image, and more
 /// than one choice that fits about as well (planned markers whose distances to the others are
-/// alike: move one). Four markers in one plane, or three, have no mirror image to be told from.
+/// alike: move one). Three markers, and others in one plane, are matched with their mirror image as
+/// well as with themselves: `unchecked_handedness` (handedness.hpp) tells that.
 /// Backtracking over partial choices; bounded. Allocates.
 Expected<std::vector<std::size_t>> match_markers(std::span<const Eigen::Vector3d> planned,
                                                  std::span<const Eigen::Vector3d> measured,

@@ -3,6 +3,7 @@
 #include <numeric>
 
 #include "armature/kinds/registration/explained_fit.hpp"
+#include "armature/kinds/registration/handedness.hpp"
 #include "armature/kinds/registration/marker_matching.hpp"
 #include "armature/kinds/registration/registration.hpp"
 #include "armature/kinds/registration/target_error.hpp"
@@ -11,8 +12,9 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
+#include "host_registration_parameters.hpp"
 
-namespace armature {
+namespace armature::host::registration {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -38,7 +40,8 @@ Expected<std::vector<std::size_t>> matched(const msg::RegistrationRequest& reque
   return same;
 }
 
-Expected<Answer> answer_to(const Registrar& registrar, const msg::RegistrationRequest& request) {
+Expected<Answer> answer_to(const Registrar& registrar, const Parameters& parameters,
+                           const msg::RegistrationRequest& request) {
   MarkerPairs markers{points_of(request.image_markers_()), {}};
   const Points robot = points_of(request.robot_markers_());
   auto match = matched(request, markers.image, robot);
@@ -57,6 +60,9 @@ Expected<Answer> answer_to(const Registrar& registrar, const msg::RegistrationRe
   if (answer.errors.empty()) return answer;
   auto unexplained = unexplained_fit(markers, answer.found, request.marker_error_());
   if (unexplained) return refuse(std::move(*unexplained));
+  if (parameters.handedness_vouched) return answer;
+  auto unchecked = unchecked_handedness(markers, answer.found, request.marker_error_());
+  if (unchecked) return refuse(std::move(*unchecked));
   return answer;
 }
 
@@ -90,18 +96,21 @@ class RegistrationHost final
     : public RequestHost<msg::RegistrationRequest, msg::RegistrationResponse> {
  public:
   explicit RegistrationHost(Setup& setup)
-      : RequestHost{setup}, registrar_{setup.slot<Registrar>("registrar")} {}
+      : RequestHost{setup},
+        parameters_{Parameters::read(setup.params())},
+        registrar_{setup.slot<Registrar>("registrar")} {}
 
  private:
   void answer(const msg::RegistrationRequest& request,
               msg::RegistrationResponse& response) override {
-    respond(answer_to(*registrar_, request), response,
+    respond(answer_to(*registrar_, parameters_, request), response,
             [&](const Answer& found) { write(found, request.targets_(), response); });
   }
 
+  Parameters parameters_;
   Slot<Registrar> registrar_;
 };
 
-}  // namespace armature
+}  // namespace armature::host::registration
 
-ARMATURE_PLUGIN(armature::RegistrationHost);
+ARMATURE_PLUGIN(armature::host::registration::RegistrationHost);

@@ -101,6 +101,7 @@ TEST_F(RegistrationHostTest, TakesOrderedMarkersAsTheyStand) {
   ordered.ordered_(true);
   EXPECT_EQ(ask(ordered).reason_(), "4 markers in the image, 5 before the robot");
   ordered.robot_markers_().pop_back();
+  ordered.targets_().clear();  // nothing is predicted of markers that disagree
   const msg::RegistrationResponse answer = ask(ordered);
   EXPECT_EQ(answer.robot_marker_(), (std::vector<std::uint32_t>{0, 1, 2, 3}));
   EXPECT_EQ(answer.robot_t_image_()[3], 9) << "the first point, marker or not";
@@ -144,6 +145,33 @@ TEST_F(RegistrationHostTest, DoesNotPredictFromAnErrorThatDoesNotExplainTheFit) 
       << refused;
   EXPECT_TRUE(explained);
   EXPECT_TRUE(without_targets) << "nothing is predicted from it";
+}
+
+/// Three markers in both frames, of which one mirrors the other.
+msg::RegistrationRequest mirrored_triangle() {
+  msg::RegistrationRequest three = request(5);
+  three.image_markers_().pop_back();
+  three.robot_markers_().clear();
+  for (const msg::Point& marker : three.image_markers_()) {
+    add(three.robot_markers_(), {-marker.x_(), marker.y_(), marker.z_()});
+  }
+  return three;
+}
+
+TEST_F(RegistrationHostTest, RefusesMarkersThatDoNotTellAMirroredImageUnlessSomebodyVouchesForIt) {
+  const msg::RegistrationResponse answer = ask(mirrored_triangle());
+  EXPECT_FALSE(answer.valid_());
+  EXPECT_NE(answer.reason_().find("the markers do not tell whether the images are mirrored"),
+            std::string::npos)
+      << answer.reason_();
+  ComponentHarness vouched{
+      plugins(),
+      {.component = "{plugin: registration/first_marker, params: {handedness_vouched: true}}",
+       .robot = {},
+       .rig = {}}};
+  vouched.send("request", mirrored_triangle());
+  vouched.step(0.1);
+  EXPECT_TRUE(vouched.take<msg::RegistrationResponse>("response").at(0).valid_());
 }
 
 TEST_F(RegistrationHostTest, MarkersMayBeToldInAnyFrameAndTheAnswerIsInTheSame) {

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/kinds/registration/handedness.hpp"
+
+#include <fmt/core.h>
+
+#include <vector>
+
+#include "armature/kinds/registration/explained_fit.hpp"
+#include "armature/kinds/registration/rigid_fit.hpp"
+
+namespace armature {
+namespace {
+
+/// How a motion and a reflection fit the same markers, rms [m], and what their error explains.
+struct Fits {
+  double direct_m, mirrored_m, explained_m;
+
+  bool tell() const { return direct_m <= explained_m && mirrored_m > explained_m; }
+};
+
+Fits fits_of(const MarkerPairs& markers, double marker_error_m) {
+  return {rms_of(rigid_fit(markers.image, markers.robot), markers.image, markers.robot),
+          mirrored_rms(markers.image, markers.robot),
+          largest_explained_fit(markers.image.size(), marker_error_m)};
+}
+
+/// The used markers, and those that the map takes to where they were found as well.
+std::vector<bool> agreeing(const Registration& found, double marker_error_m) {
+  constexpr double kErrors = 6;
+  std::vector<bool> set = found.used;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (found.residual_m[i] <= kErrors * marker_error_m) set[i] = true;
+  }
+  return set;
+}
+
+}  // namespace
+
+std::optional<std::string> unchecked_handedness(const MarkerPairs& markers,
+                                                const Registration& found, double marker_error_m) {
+  const Fits used = fits_of(only(markers, found.used), marker_error_m);
+  if (used.tell()) return std::nullopt;
+  const Fits all = fits_of(only(markers, agreeing(found, marker_error_m)), marker_error_m);
+  if (all.tell()) return std::nullopt;
+  return fmt::format(
+      "the markers do not tell whether the images are mirrored: they fit to {:.2g} mm, and their "
+      "mirror image to {:.2g} mm, of which an error of {:.2g} mm a marker explains {:.2g} mm. Put "
+      "a "
+      "marker out of the plane of the others, or vouch for the images (handedness_vouched: true)",
+      1e3 * all.direct_m, 1e3 * all.mirrored_m, 1e3 * marker_error_m, 1e3 * all.explained_m);
+}
+
+}  // namespace armature

@@ -49,17 +49,21 @@ TEST(Sr1FromImages, AMirroredVolumeIsFoundOutByTheRegistration) {
   expect_refused({kScan + "mirrored=true"}, "mirror");
 }
 
-/// Three, or five in one plane, fit their mirror image as well as themselves.
+/// Three, or five in one plane, fit their mirror image as well as themselves; others that lie alike
+/// on both sides of a plane fit it exchanged.
 TEST(Sr1FromImages, MarkersThatDoNotTellAMirroredVolumeAreRefusedUnlessSomebodyVouchesForIt) {
   const std::string marked = "components.head.params.markers_mm=";
   const std::string three = marked + "[88.633, 0, 15.628, -15.096, 85.613, 23.294, -77.942, 0, 45]";
   const std::string five =
       marked + "[85, 0, 30, -40, 75, 30, -60, -60, 30, 30, -80, 30, 55, 65, 30]";
+  const std::string alike =
+      marked + "[80, 30, 30, -80, 30, 30, 55, -60, 40, -55, -60, 40, 0, -20, 88]";
   const std::string untold = "the markers do not tell whether the images are mirrored";
   const std::string planner = "components.planner.params.markers=";
   for (const char* mirrored : {"true", "false"}) {
     expect_refused({three, planner + "3", kScan + "mirrored=" + mirrored}, untold);
     expect_refused({five, planner + "5", kScan + "mirrored=" + mirrored}, untold);
+    expect_refused({alike, planner + "5", kScan + "mirrored=" + mirrored}, untold);
   }
   const DeploymentRun vouched =
       biopsy({three, planner + "3", "components.registration.params.handedness_vouched=true"});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -15,5 +16,17 @@ namespace armature ARMATURE_EXPORT {
 /// reflection does. Three markers never tell, nor do others near one plane. Allocates.
 std::optional<std::string> unchecked_handedness(const MarkerPairs& markers,
                                                 const Registration& found, double marker_error_m);
+
+/// The mirror image of all markers, and how well some choice of measured points fits it
+/// (`mirrored_match_rms`).
+struct MirroredMatch {
+  std::size_t markers = 0;
+  double rms_m = 0;
+};
+
+/// The same of markers that were measured in any order: those that lie alike on both sides of a
+/// plane fit their mirror image exchanged, however much of a body they span.
+std::optional<std::string> exchangeable_handedness(const MirroredMatch& match,
+                                                   double marker_error_m);
 
 }  // namespace armature

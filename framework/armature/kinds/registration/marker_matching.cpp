@@ -29,6 +29,7 @@ class Search {
   }
 
   Expected<Choice> answer() const;
+  double best_mirrored_m() const { return best_mirrored_m_; }
 
  private:
   struct Fit {
@@ -77,10 +78,8 @@ void Search::consider() {
   std::vector<Eigen::Vector3d> to;
   for (const std::size_t i : choice_) to.push_back(measured_[i]);
   Fit fit{choice_, rms_of(rigid_fit(planned_, to), planned_, to)};
-  if (!(fit.rms_m <= tolerance_m_)) {
-    best_mirrored_m_ = std::min(best_mirrored_m_, mirrored_rms(planned_, to));
-    return;
-  }
+  best_mirrored_m_ = std::min(best_mirrored_m_, mirrored_rms(planned_, to));
+  if (!(fit.rms_m <= tolerance_m_)) return;
   if (fit.rms_m < best_.rms_m) std::swap(fit, best_);
   if (fit.rms_m < second_.rms_m) second_ = std::move(fit);
 }
@@ -150,6 +149,12 @@ Expected<std::vector<std::size_t>> match_markers(std::span<const Eigen::Vector3d
                                                  double tolerance_m) {
   if (auto wrong = unusable(planned, measured, tolerance_m)) return refuse(std::move(*wrong));
   return Search{planned, measured, tolerance_m}.answer();
+}
+
+double mirrored_match_rms(std::span<const Eigen::Vector3d> planned,
+                          std::span<const Eigen::Vector3d> measured, double tolerance_m) {
+  if (unusable(planned, measured, tolerance_m)) return std::numeric_limits<double>::infinity();
+  return Search{planned, measured, tolerance_m}.best_mirrored_m();
 }
 
 }  // namespace armature

@@ -18,10 +18,17 @@ namespace armature ARMATURE_EXPORT {
 /// Refuses with a reason: too few of either, points that no choice fits, a mirror image, and more
 /// than one choice that fits about as well (planned markers whose distances to the others are
 /// alike: move one). Three markers, and others in one plane, are matched with their mirror image as
-/// well as with themselves: `unchecked_handedness` (handedness.hpp) tells that.
+/// well as with themselves: handedness.hpp tells that.
 /// Backtracking over partial choices; bounded. Allocates.
 Expected<std::vector<std::size_t>> match_markers(std::span<const Eigen::Vector3d> planned,
                                                  std::span<const Eigen::Vector3d> measured,
                                                  double tolerance_m);
+
+/// How well the best choice among the same ones fits the mirror image of the planned markers, rms
+/// [m]: what a mirrored scan would be registered with. Near 0 for three markers, for others in one
+/// plane, and for those that lie alike on both sides of one: their mirror image is they themselves,
+/// exchanged. Infinite where no choice keeps the distances, or `match_markers` refuses to search.
+double mirrored_match_rms(std::span<const Eigen::Vector3d> planned,
+                          std::span<const Eigen::Vector3d> measured, double tolerance_m);
 
 }  // namespace armature

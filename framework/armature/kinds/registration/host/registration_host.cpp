@@ -62,6 +62,12 @@ Expected<Answer> answer_to(const Registrar& registrar, const Parameters& paramet
   if (unexplained) return refuse(std::move(*unexplained));
   if (parameters.handedness_vouched) return answer;
   auto unchecked = unchecked_handedness(markers, answer.found, request.marker_error_());
+  if (!unchecked && !request.ordered_()) {
+    unchecked = exchangeable_handedness(
+        {markers.image.size(),
+         mirrored_match_rms(markers.image, robot, request.match_tolerance_())},
+        request.marker_error_());
+  }
   if (unchecked) return refuse(std::move(*unchecked));
   return answer;
 }

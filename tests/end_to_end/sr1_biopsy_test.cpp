@@ -80,6 +80,25 @@ TEST(Sr1Biopsy, AVesselInTheWayIsNamed) {
   expect_refused({kHead + "vessels_mm=[10, 5, 12, 10, 5, 12, 8]"}, "path: the needle leaves -9");
 }
 
+/// From here every way to the stand-off led the needle through the head, 24 mm under the skin.
+TEST(Sr1Biopsy, AWayThroughTheHeadIsNoWay) {
+  expect_refused({kHead + "head_mm=[330, 240, 320]", kHead + "head_rpy_deg=[-0.874, -31.682, 0]"},
+                 "links: link 'forearm' comes nearer than 1 mm (min_link_clearance_mm) to 'head'");
+}
+
+TEST(Sr1Biopsy, AnEntryAndATargetThatDoNotFitTheHeadAreRefused) {
+  expect_refused({kHead + "entry_mm=[10, 5, 12]", kHead + "target_mm=[0, 60, 70]"},
+                 "the target is 9.2 mm outside of the head");
+  expect_refused(
+      {kHead + "entry_mm=[10, 5, 12]", kHead + "target_mm=[0, 40, 60]"},
+      "the entry is 66.6 mm deep in the head and the target 10.9 mm: are they exchanged?");
+  expect_refused({kHead + "target_mm=[10, 5, 200]"}, "the target is 117.3 mm outside of the head");
+  expect_refused({kHead + "entry_mm=[0, 40, 60]"},
+                 "the entry is 10.9 mm deep in the head, 5 mm are allowed (max_entry_depth_mm)");
+  expect_refused({kHead + "head_radius_mm=95", "components.motion.path.params.stand_off_mm=5"},
+                 "path: the needle leaves 1.");
+}
+
 TEST(Sr1Biopsy, MarkersThatDecideNothingAreRefused) {
   expect_refused({kHead + "markers_mm=[0, 0, 0, 30, 0, 0, 50, 0, 0, 90, 0, 0]"},
                  "the markers lie nearly on one line");

@@ -12,8 +12,8 @@ namespace armature ARMATURE_EXPORT {
 inline std::vector<ForbiddenZone> zones_of(const std::vector<msg::ForbiddenZone>& messages) {
   std::vector<ForbiddenZone> zones;
   for (const msg::ForbiddenZone& message : messages) {
-    zones.push_back(
-        {message.name_(), to_eigen(message.from_()), to_eigen(message.to_()), message.radius_()});
+    zones.push_back({message.name_(), to_eigen(message.from_()), to_eigen(message.to_()),
+                     message.radius_(), message.tool_enters_()});
   }
   return zones;
 }
@@ -26,6 +26,7 @@ inline void write_zones(const std::vector<ForbiddenZone>& zones,
     assign(messages[i].from_(), zones[i].from);
     assign(messages[i].to_(), zones[i].to);
     messages[i].radius_(zones[i].radius_m);
+    messages[i].tool_enters_(zones[i].tool_enters);
   }
 }
 

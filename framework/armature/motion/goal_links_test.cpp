@@ -79,6 +79,72 @@ TEST(GoalLinks, AnotherBranchIsTakenWhereTheFirstComesTooNear) {
   EXPECT_FALSE(planner.plan(between, rest_at(0, 0, 0), kGoStart)) << "both come too near";
 }
 
+/// A straight line to a place before the goal, in joint space or not, and one from there.
+class Halfway final : public PathPlanner {
+ public:
+  PathSegment::Space first = PathSegment::Space::joint;
+  bool stops = true;
+
+  Expected<Path> plan(const PathRequest& request) const override {
+    ToolPose middle = request.goal;
+    middle.position.x() *= 0.5;
+    PathSegment to{.space = first,
+                   .samples = {{.s = 1, .pose = middle}},
+                   .stop_at_end = stops,
+                   .duration_s = {}};
+    if (first == PathSegment::Space::cartesian) {
+      to.samples.insert(to.samples.begin(), {.s = 0, .pose = request.start});
+    }
+    return Path{to,
+                PathSegment{.space = PathSegment::Space::cartesian,
+                            .samples = {{.s = 0, .pose = middle}, {.s = 1, .pose = request.goal}},
+                            .stop_at_end = true,
+                            .duration_s = {}}};
+  }
+};
+
+/// One quintic for each segment, from rest to rest.
+class RestsBehindEachSegment final : public TrajectoryPlanner {
+ public:
+  Expected<Trajectory> plan(const TrajectoryRequest& request) const override {
+    constexpr double kDuration_s = 3;
+    Trajectory trajectory{.goal_id = request.goal_id,
+                          .dof = static_cast<int>(request.from.q.size()),
+                          .start = request.start,
+                          .knots = {0},
+                          .pieces = {}};
+    for (const JointSegment& segment : request.segments) {
+      trajectory.knots.push_back(trajectory.knots.back() + kDuration_s);
+      for (int i = 0; i < trajectory.dof; ++i) {
+        trajectory.pieces.push_back(Quintic::between({segment.q.front()[i], 0, 0},
+                                                     {segment.q.back()[i], 0, 0}, kDuration_s));
+      }
+    }
+    return trajectory;
+  }
+};
+
+TEST(GoalLinks, AZoneThatTheToolEntersIsEnteredOnlyInLinesBehindTheFirstJointSegments) {
+  const Gantry gantry = with_body();
+  Halfway path;
+  const RestsBehindEachSegment trajectory;
+  const PlanStages stages{path, gantry.ik, gantry.select, trajectory};
+  const auto reason = [&](double zone_x) {
+    GoalPlanner planner{
+        gantry.model, stages, gantry.limits, {.path_only = true, .min_link_clearance = 0.01}};
+    MotionGoal goal = goal_at(1, 1, 0, 0);
+    goal.forbidden = {{"head", {zone_x, 0, 0}, {zone_x, 0, 0}, 0.1, true}};
+    const auto plan = planner.plan(goal, rest_at(0, 0, 0), kGoStart);
+    return plan ? std::string{} : plan.error().stage;
+  };
+  EXPECT_EQ(reason(0.9), "") << "in the second half, a line";
+  EXPECT_EQ(reason(0.3), "links") << "on the joint segment";
+  path.stops = false;
+  EXPECT_EQ(reason(0.9), "links") << "where the joint segment ends is not told";
+  path.first = PathSegment::Space::cartesian;
+  EXPECT_EQ(reason(0.3), "") << "lines from the start: the path's to see";
+}
+
 /// It is where it is: on a line it must not swing away.
 TEST(GoalLinks, AWayThatBeginsOnALineTakesNoOtherBranch) {
   const Gantry gantry = with_body();

@@ -137,6 +137,18 @@ std::string with_way_out(std::string defect, const Plan& plan, const RobotModel&
          "_mm)";
 }
 
+/// [s] Where the joint segments end that the way begins with: at a stop. Behind the way where there
+/// is none.
+double begin_of_lines_s(const Plan& plan) {
+  double begin_s = 0;
+  for (const PathSegment& segment : plan.path) {
+    if (segment.space == PathSegment::Space::cartesian) return begin_s;
+    if (!segment.stop_at_end) break;
+    begin_s = next_rest_s(plan.trajectory, begin_s);
+  }
+  return kToolEntersNothing;
+}
+
 /// A splice would leave the key poses, and an arm that is faster than it may be is not spliced.
 bool begins_at_rest(const MotionGoal& goal) { return !goal.through.empty() || goal.max_speed > 0; }
 
@@ -221,7 +233,7 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
   for (;;) {
     PlanResult timed = this->timed(plan.path, goal, from, start);
     if (!timed) return first_obstacle ? fail("links", *first_obstacle) : std::move(timed);
-    const auto obstacle = this->obstacle(timed->trajectory, goal);
+    const auto obstacle = this->obstacle(*timed, goal);
     if (!obstacle) return timed;
     if (!first_obstacle) first_obstacle = obstacle;
     if (!without_branch_of(*timed)) return fail("links", *first_obstacle);
@@ -260,10 +272,9 @@ PlanResult GoalPlanner::timed(const Path& path, const MotionGoal& goal, const Jo
   return plan;
 }
 
-std::optional<std::string> GoalPlanner::obstacle(const Trajectory& trajectory,
-                                                 const MotionGoal& goal) const {
-  const auto found =
-      first_violation(model_, trajectory.view(), goal.forbidden, options_.min_link_clearance);
+std::optional<std::string> GoalPlanner::obstacle(const Plan& plan, const MotionGoal& goal) const {
+  const auto found = first_violation(model_, plan.trajectory.view(), goal.forbidden,
+                                     options_.min_link_clearance, begin_of_lines_s(plan));
   if (!found) return std::nullopt;
   return fmt::format(
       "link '{}' comes nearer than {:g} mm (min_link_clearance_mm) to '{}', {:.2f} s after the "

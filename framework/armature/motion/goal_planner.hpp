@@ -43,7 +43,8 @@ class GoalPlanner {
   /// a stop that comes first counts for nothing there.
   /// With forbidden zones every link that the robot file states keeps `min_link_clearance` on the
   /// whole way, a stop before it left out; where it does not, the way begins in another branch, if
-  /// there is one that does.
+  /// there is one that does. The tool goes into a zone that says so (`tool_enters`) behind the
+  /// joint segments that the path begins with, in lines; what those lead to is the path's to see.
   PlanResult plan(const MotionGoal& goal, const JointState& from, Time start);
 
   /// The joint position nearest to `near` that reaches `pose`.
@@ -60,7 +61,7 @@ class GoalPlanner {
   /// choice, or the way begins on a line.
   bool without_branch_of(const Plan& plan);
   /// Which link comes too near to which zone, or nullopt.
-  std::optional<std::string> obstacle(const Trajectory& trajectory, const MotionGoal& goal) const;
+  std::optional<std::string> obstacle(const Plan& plan, const MotionGoal& goal) const;
   PlanResult after_stop(const MotionGoal& goal, const JointState& from, Time start, bool straight);
   tl::expected<std::vector<JointSegment>, PlanFailure> joint_path(const Path& path,
                                                                   const JointVector& start);

@@ -13,6 +13,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "head_ball.hpp"
 #include "ways.hpp"
 
 namespace armature::image::needle_planner {
@@ -37,6 +38,7 @@ Parameters parameters_of(const Params& params) {
 struct Planned {
   Lesion lesion;
   std::vector<ForbiddenZone> vessels;
+  ForbiddenZone head;
   std::vector<Way> ways;
 };
 
@@ -104,9 +106,11 @@ class NeedlePlanner final : public Component {
     }
     const auto lesion = find_lesion(*volume, parameters_);
     if (!lesion) return tl::unexpected{lesion.error()};
-    Planned planned{*lesion, find_vessels(*volume, parameters_), {}};
-    auto ways = ways_to(lesion->centre, *volume, planned.vessels, zones_about(markers.markers_()),
-                        parameters_);
+    const std::vector<ForbiddenZone> balls = zones_about(markers.markers_());
+    const auto head = find_head(*volume, balls);
+    if (!head) return tl::unexpected{head.error()};
+    Planned planned{*lesion, find_vessels(*volume, parameters_), *head, {}};
+    auto ways = ways_to(lesion->centre, *volume, planned.vessels, balls, parameters_);
     if (!ways) return tl::unexpected{ways.error()};
     planned.ways = std::move(*ways);
     return planned;
@@ -145,6 +149,7 @@ class NeedlePlanner final : public Component {
     assign(message->entry_(), planned.ways.front().entry);
     assign(message->target_(), planned.lesion.centre);
     write_zones(planned.vessels, message->forbidden_());
+    write_zones({planned.head}, message->head_());
     message.publish();
   }
 

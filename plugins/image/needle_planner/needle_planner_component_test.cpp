@@ -87,6 +87,8 @@ TEST_F(NeedlePlannerTest, PlansTheBestWayOnce) {
   EXPECT_EQ(plans[0].header_().frame_id_(), "image");
   EXPECT_EQ(plans[0].markers_().size(), 4u);
   EXPECT_EQ(plans[0].forbidden_().size(), 1u);
+  ASSERT_EQ(plans[0].head_().size(), 1u);
+  EXPECT_NEAR(plans[0].head_()[0].radius_(), kSmallSkin, 0.001);
   EXPECT_EQ(plans[0].entry_(), ways[0].ways_()[0].entry_());
   EXPECT_LT((to_eigen(plans[0].target_()) - Vector3d{0.005, 0, 0.008}).norm(), 0.0002);
   EXPECT_THAT(ways[0].ways_()[0].reason_(), HasSubstr("vessel 1 is "));

@@ -64,11 +64,41 @@ bool NeedlePath::is_on(const Line& line, const ToolPose& pose) const {
 std::optional<std::string> NeedlePath::obstacle(const Line& line, double from, double to,
                                                 const PathRequest& request) const {
   for (const ForbiddenZone& zone : request.forbidden) {
+    if (zone.tool_enters) continue;
     const double left =
         clearance(line.point(from), line.point(to), zone) - parameters_.needle_radius;
     if (left >= parameters_.margin) continue;
     return fmt::format("the needle leaves {:.2f} mm to '{}', {:g} mm are required (margin_mm)",
                        1e3 * left, zone.name, 1e3 * parameters_.margin);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> NeedlePath::entered_before(const Line& line,
+                                                      const PathRequest& request) const {
+  constexpr double kRounding_m = 1e-9;
+  const Vector3d stand_off = line.point(-parameters_.stand_off);
+  for (const ForbiddenZone& zone : request.forbidden) {
+    if (!zone.tool_enters) continue;
+    const auto left_between = [&](const Vector3d& from, const Vector3d& to) {
+      return clearance(from, to, zone) - parameters_.needle_radius;
+    };
+    const double at_begin = left_between(stand_off, stand_off);
+    if (at_begin < parameters_.margin) {
+      return fmt::format(
+          "the needle leaves {:.2f} mm to '{}' at its stand-off, {:g} mm before the entry, {:g} mm "
+          "are required (margin_mm): is the entry on the side that it comes from, and stand_off_mm "
+          "large enough?",
+          1e3 * at_begin, zone.name, 1e3 * parameters_.stand_off, 1e3 * parameters_.margin);
+    }
+    // It may come as near as the entry itself is, and into the zone there.
+    const double allowed = std::min(parameters_.margin, left_between(line.entry, line.entry));
+    const double nearest = left_between(stand_off, line.entry);
+    if (nearest >= allowed - kRounding_m) continue;
+    return fmt::format(
+        "the needle leaves {:.2f} mm to '{}' on its way from the stand-off to the entry, {:.2f} mm "
+        "are required: the entry is not where it comes in",
+        1e3 * nearest, zone.name, 1e3 * allowed);
   }
   return std::nullopt;
 }
@@ -127,6 +157,7 @@ Expected<Path> NeedlePath::plan(const PathRequest& request) const {
                       "it has to be drawn back first",
                       1e3 * here, 1e3 * aside));
     }
+    if (auto wrong = entered_before(*line, *valid)) return refuse(std::move(*wrong));
     path.push_back({.space = PathSegment::Space::joint,
                     .samples = {sample(*line, begin, 1, valid->goal)},
                     .stop_at_end = true,

@@ -21,6 +21,8 @@ class NeedlePath final : public PathPlanner {
   bool is_on(const Line& line, const ToolPose& pose) const;
   std::optional<std::string> obstacle(const Line& line, double from, double to,
                                       const PathRequest& request) const;
+  /// The needle is in a zone that it enters on its line, or near it, before it is at the entry.
+  std::optional<std::string> entered_before(const Line& line, const PathRequest& request) const;
   PathSample sample(const Line& line, double at, double s, const ToolPose& goal) const;
   PathSegment straight(const Line& line, double from, double to, const ToolPose& goal) const;
 

@@ -129,6 +129,43 @@ TEST_P(NeedlePaths, AZoneThatIsTooNearIsNamedWithItsDistance) {
   EXPECT_FALSE(planner().plan(request)) << "between stand-off and entry";
 }
 
+TEST_P(NeedlePaths, AHeadIsEnteredOnTheLineAndNotAtTheStandOff) {
+  PathRequest request{.start = {{0, 0, 0.3}, Direction{{1, 0, 0}}},
+                      .goal = {{0, 0, -0.06}, Direction{{0, 0, -1}}},
+                      .focus = Vector3d{0, 0, 0}};
+  // The skin is 1 mm before the entry.
+  request.forbidden = {{"head", {0, 0, -0.079}, {0, 0, -0.079}, 0.08, true}};
+  const auto path = planner().plan(request);
+  ASSERT_TRUE(path) << path.error().text;
+  expect_sound(*path, request);
+  request.start.position = {0.3, 0, -0.1};
+  request.goal = {{0, 0, 0.06}, Direction{{0, 0, 1}}};
+  request.forbidden[0].from.z() = request.forbidden[0].to.z() = -0.04;
+  EXPECT_EQ(planner().plan(request).error().text,
+            "the needle leaves -71.00 mm to 'head' at its stand-off, 50 mm before the entry, 2 mm "
+            "are required (margin_mm): is the entry on the side that it comes from, and "
+            "stand_off_mm large enough?");
+  request.start = {{0, 0, -0.01}, Direction{{0, 0, 1}}};
+  EXPECT_TRUE(planner().plan(request)) << "on its line it goes on, and comes out";
+  request.forbidden[0].tool_enters = false;
+  EXPECT_FALSE(planner().plan(request)) << "what is entered by nothing";
+}
+
+TEST_P(NeedlePaths, WhatBelongsToAHeadIsNotPassedThroughBeforeTheEntry) {
+  PathRequest request{.start = {{0, 0, 0.3}, Direction{{1, 0, 0}}},
+                      .goal = {{0, 0, -0.06}, Direction{{0, 0, -1}}},
+                      .focus = Vector3d{0, 0, 0}};
+  request.forbidden = {{"head", {0, 0, -0.079}, {0, 0, -0.079}, 0.08, true},
+                       {"ear", {0, 0.01, 0.02}, {0, 0.01, 0.02}, 0.008, true}};
+  EXPECT_EQ(planner().plan(request).error().text,
+            "the needle leaves 1.00 mm to 'ear' on its way from the stand-off to the entry, 2.00 "
+            "mm are required: the entry is not where it comes in");
+  request.forbidden[1].radius_m = 0.006;
+  EXPECT_TRUE(planner().plan(request));
+  request.forbidden[1] = {"cheek", {0, 0.03, -0.04}, {0, 0.03, -0.04}, 0.052, true};
+  EXPECT_TRUE(planner().plan(request)) << "the entry is in it as well";
+}
+
 TEST_P(NeedlePaths, WhatWouldHurtIsRefused) {
   const PathRequest good = insertion();
   const auto refusal = [&](auto change) {

@@ -73,6 +73,8 @@ class MarkedHeadComponent final : public Component {
     assign(plan.entry_(), head_.entry);
     assign(plan.target_(), head_.target);
     write_zones(head_.vessels, plan.forbidden_());
+    const Vector3d middle = Vector3d::Zero();
+    write_zones({{"head", middle, middle, parameters_.head_radius}}, plan.head_());
     plan_.publish(plan);
     msg::MeasuredMarkers markers;
     write_header(markers.header_(), now, kBaseFrame);

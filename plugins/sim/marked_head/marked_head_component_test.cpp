@@ -32,6 +32,9 @@ TEST(MarkedHeadComponentTest, TellsPlanMarkersAndTruthOnce) {
   ASSERT_EQ(plans[0].forbidden_().size(), 2u);
   EXPECT_EQ(plans[0].forbidden_()[1].name_(), "vessel 2");
   EXPECT_DOUBLE_EQ(plans[0].forbidden_()[1].radius_(), 0.005);
+  ASSERT_EQ(plans[0].head_().size(), 1u);
+  EXPECT_EQ(to_eigen(plans[0].head_()[0].from_()), Eigen::Vector3d::Zero());
+  EXPECT_DOUBLE_EQ(plans[0].head_()[0].radius_(), 0.083);
   const auto markers = head.take<msg::MeasuredMarkers>("markers");
   ASSERT_EQ(markers.size(), 1u);
   EXPECT_EQ(markers[0].header_().frame_id_(), "base");

@@ -6,41 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "armature/robot/kinematics/kinematics.hpp"
-
 namespace armature::task::biopsy {
-namespace {
 
 using Eigen::Vector3d;
-
-/// The rotation with `z` along, and x as near to `x` as that leaves it.
-Eigen::Quaterniond rotation_along(const Vector3d& z, const Vector3d& x) {
-  constexpr double kAlong = 1e-6;
-  Vector3d side = x - x.dot(z) * z;
-  if (side.norm() < kAlong) side = z.unitOrthogonal();
-  side.normalize();
-  Eigen::Matrix3d R;
-  R << side, z.cross(side), z;
-  return Eigen::Quaterniond{R};
-}
-
-}  // namespace
-
-NeedleLine moved(const NeedleLine& line, const Eigen::Affine3d& robot_T_image) {
-  NeedleLine there{robot_T_image * line.entry, robot_T_image * line.target, line.forbidden};
-  for (ForbiddenZone& zone : there.forbidden) {
-    zone.from = robot_T_image * zone.from;
-    zone.to = robot_T_image * zone.to;
-  }
-  return there;
-}
-
-ToolPose pose_at_target(const NeedleLine& line, const RobotModel& robot) {
-  const Vector3d along = (line.target - line.entry).normalized();
-  if (robot.pointing_axis()) return {line.target, Direction{along}};
-  const Eigen::Isometry3d home = forward_kinematics(robot, resting_position(robot));
-  return {line.target, rotation_along(along, home.linear().col(0))};
-}
 
 Biopsy::Biopsy(const Parameters& parameters, const RobotModel& robot)
     : parameters_{parameters},
@@ -77,6 +45,7 @@ void Biopsy::see_head(const NeedleLine& plan, const std::vector<Vector3d>& marke
   if (has_plan_) return;
   plan_ = plan;
   has_plan_ = true;
+  if (const auto wrong = defect(plan, parameters_.max_entry_depth)) return refuse(*wrong);
   if (!parameters_.touch_markers) return;
   constexpr std::size_t kFewest = 3;
   if (markers.size() < kFewest) {
@@ -102,9 +71,7 @@ void Biopsy::see_registration(const RegisteredHead& head, Time now) {
                     1e3 * head.target_error95_m, 1e3 * parameters_.max_tre),
         now);
   }
-  const NeedleLine line = moved(plan_, head.robot_T_image);
-  if (!((line.target - line.entry).norm() > 0)) return refuse("entry and target are one point");
-  line_ = line;
+  line_ = moved(plan_, head.robot_T_image);
   enter(Step::approach);
 }
 
@@ -140,7 +107,7 @@ void Biopsy::set_out() {
   if (way_stops_ > 0) return goal_.go_on();
   goal_.set_once({.pose = pose_at_target(*line_, robot_),
                   .focus = line_->entry,
-                  .forbidden = line_->forbidden,
+                  .forbidden = zones_of(*line_),
                   .stepwise = true});
 }
 

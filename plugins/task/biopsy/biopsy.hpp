@@ -7,20 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "armature/robot/geometry/forbidden_zone.hpp"
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/task/procedure.hpp"
 #include "armature/task/pursued_goal.hpp"
+#include "needle_line.hpp"
 #include "task_biopsy_parameters.hpp"
 #include "touching.hpp"
 
 namespace armature::task::biopsy {
-
-/// The plan, in one frame.
-struct NeedleLine {
-  Eigen::Vector3d entry, target;  // [m]
-  std::vector<ForbiddenZone> forbidden;
-};
 
 /// What a registration answered.
 struct RegisteredHead {
@@ -28,14 +22,6 @@ struct RegisteredHead {
   double fiducial_error_m = 0;
   double target_error95_m = 0;
 };
-
-/// `line`, of the image, before the robot.
-NeedleLine moved(const NeedleLine& line, const Eigen::Affine3d& robot_T_image);
-
-/// The tool's pose with its tip at the target and the needle along the line: a direction for a
-/// robot that names its pointing axis, else the rotation whose z is along it and whose x is as near
-/// to that of the arm at home as that leaves it.
-ToolPose pose_at_target(const NeedleLine& line, const RobotModel& robot);
 
 /// The scenario of one biopsy. Everything it knows comes in through the `see` and `hear` calls;
 /// `update` decides. The needle goes along one planned way, which stops at the stand-off, at the

@@ -26,7 +26,10 @@ namespace {
 constexpr Duration kPeriod = seconds(0.02);
 
 NeedleLine line_of(const msg::NeedlePlan& plan) {
-  return {to_eigen(plan.entry_()), to_eigen(plan.target_()), zones_of(plan.forbidden_())};
+  return {.entry = to_eigen(plan.entry_()),
+          .target = to_eigen(plan.target_()),
+          .forbidden = armature::zones_of(plan.forbidden_()),
+          .head = armature::zones_of(plan.head_())};
 }
 
 std::vector<Eigen::Vector3d> points_of(const std::vector<msg::Point>& messages) {

@@ -22,6 +22,7 @@ class BiopsyComponentTest : public testing::Test {
     assign(plan.entry_(), Eigen::Vector3d{0, 0, 0.05});
     assign(plan.target_(), Eigen::Vector3d{0, 0, -0.03});
     write_zones({{"artery", {0.1, 0, 0}, {0.1, 0.1, 0}, 0.002}}, plan.forbidden_());
+    write_zones({{"head", {0, 0, 0}, {0, 0, 0}, 0.045}}, plan.head_());
     task_.send("plan", plan);
     msg::MeasuredMarkers markers;
     assign(markers.points_().emplace_back(), Eigen::Vector3d{7, 8, 9});
@@ -94,8 +95,11 @@ TEST_F(BiopsyComponentTest, SendsTheRegisteredTargetAsAGoal) {
   EXPECT_NEAR(goals[0].direction_().z_(), -1, 1e-15);
   EXPECT_TRUE(goals[0].has_focus_());
   EXPECT_NEAR(goals[0].focus_().z_(), 0.25, 1e-15);
-  ASSERT_EQ(goals[0].forbidden_().size(), 1u);
+  ASSERT_EQ(goals[0].forbidden_().size(), 2u);
   EXPECT_NEAR(goals[0].forbidden_()[0].to_().x_(), 0.5, 1e-15);
+  EXPECT_FALSE(goals[0].forbidden_()[0].tool_enters_());
+  EXPECT_NEAR(goals[0].forbidden_()[1].to_().x_(), 0.4, 1e-15);
+  EXPECT_TRUE(goals[0].forbidden_()[1].tool_enters_());
   EXPECT_TRUE(goals[0].stepwise_());
   EXPECT_EQ(task_.lines().back(), "approach");
   EXPECT_EQ(task_.lines()[task_.lines().size() - 2],

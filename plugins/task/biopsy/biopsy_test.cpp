@@ -19,8 +19,10 @@ using Report = GoalReport::State;
 
 constexpr Time at(double s) { return Time{} + seconds(s); }
 
-const NeedleLine kPlan{
-    {0, 0, 0.05}, {0, 0, -0.03}, {{"artery", {0.01, 0, 0}, {0.01, 0.1, 0}, 0.002}}};
+const NeedleLine kPlan{{0, 0, 0.05},
+                       {0, 0, -0.03},
+                       {{"artery", {0.01, 0, 0}, {0.01, 0.1, 0}, 0.002}},
+                       {{"head", {0, 0, 0}, {0, 0, 0}, 0.045}}};
 
 class BiopsyTest : public testing::Test {
  protected:
@@ -96,9 +98,11 @@ TEST_F(BiopsyTest, GoesFromThePlanToTheTargetStopByStopAndOutAgain) {
   EXPECT_LT((goal.pose.position - Vector3d{0.4, 0.03, 0.2}).norm(), 1e-15);
   EXPECT_LT((std::get<Direction>(goal.pose.orientation).unit - Vector3d{0, 1, 0}).norm(), 1e-15);
   EXPECT_LT((*goal.focus - Vector3d{0.4, -0.05, 0.2}).norm(), 1e-15);
-  ASSERT_EQ(goal.forbidden.size(), 1u);
+  ASSERT_EQ(goal.forbidden.size(), 2u);
   EXPECT_LT((goal.forbidden[0].to - Vector3d{0.41, 0, 0.3}).norm(), 1e-15);
   EXPECT_EQ(goal.forbidden[0].radius_m, 0.002);
+  EXPECT_LT((goal.forbidden[1].from - Vector3d{0.4, 0, 0.2}).norm(), 1e-15);
+  EXPECT_TRUE(goal.forbidden[1].tool_enters) << "the head, until the needle is on its line";
   EXPECT_EQ(reach(1).mode, MotionMode::resume);
   EXPECT_EQ(reach(0).mode, MotionMode::resume);
   EXPECT_EQ(task_->phase(), Phase::at_target);
@@ -123,6 +127,16 @@ TEST_F(BiopsyTest, AWayThatBeginsOnItsLineHasAStopLess) {
   EXPECT_EQ(task_->phase(), Phase::withdrawing);
   reach(0);
   EXPECT_EQ(task_->phase(), Phase::withdrawn);
+}
+
+TEST_F(BiopsyTest, APlanThatIsNoneIsRefusedBeforeAnythingIsRegistered) {
+  NeedleLine swapped = kPlan;
+  std::swap(swapped.entry, swapped.target);
+  task_->see_head(swapped, {}, at(1));
+  EXPECT_EQ(task_->phase(), Phase::refused);
+  EXPECT_EQ(task_->trouble(), "the target is 5.0 mm outside of the head");
+  EXPECT_FALSE(task_->wants_registration());
+  EXPECT_FALSE(task_->outgoing_goal(at(1)));
 }
 
 TEST_F(BiopsyTest, DoesNotTrustMarkersThatFitBadly) {

@@ -19,13 +19,16 @@ class TouchedBiopsyTest : public testing::Test {
   void begin(bool auto_confirm) {
     task_.emplace(Parameters{.touch_markers = true, .auto_confirm = auto_confirm}, arm());
     follows_ = false;
-    task_->see_head({{0, 0, 0.05}, {0, 0, -0.03}, {}}, kMarkers, now_);
+    task_->see_head(plan(), kMarkers, now_);
     run(0.1);
     EXPECT_EQ(goal_.mode, MotionMode::guided);
     EXPECT_EQ(asked(), "") << "the arm is not in a hand yet";
     hear(GoalReport::State::executing);
     follows_ = true;
     run(0.1);
+  }
+  static NeedleLine plan() {
+    return {{0, 0, 0.05}, {0, 0, -0.03}, {}, {{"head", {0, 0, 0}, {0, 0, 0}, 0.045}}};
   }
   static const RobotModel& arm() {
     static const RobotModel model =
@@ -305,7 +308,7 @@ TEST_F(TouchedBiopsyTest, AnArmThatIsInNoHandTouchesNothing) {
 
 TEST_F(TouchedBiopsyTest, AnArmThatIsNeverGivenToAHandIsSaid) {
   task_.emplace(Parameters{.touch_markers = true, .auto_confirm = false}, arm());
-  task_->see_head({{0, 0, 0.05}, {0, 0, -0.03}, {}}, kMarkers, now_);
+  task_->see_head(plan(), kMarkers, now_);
   run(31);
   EXPECT_EQ(task_->phase(), Phase::refused);
   EXPECT_EQ(task_->trouble(), "the arm was not given to a hand for 30 s (touch_timeout_s)");
@@ -313,7 +316,7 @@ TEST_F(TouchedBiopsyTest, AnArmThatIsNeverGivenToAHandIsSaid) {
 
 TEST_F(TouchedBiopsyTest, APlanWithTooFewMarkersIsRefused) {
   task_.emplace(Parameters{.touch_markers = true}, arm());
-  task_->see_head({{0, 0, 0.05}, {0, 0, -0.03}, {}}, {kMarkers[0], kMarkers[1]}, now_);
+  task_->see_head(plan(), {kMarkers[0], kMarkers[1]}, now_);
   EXPECT_EQ(task_->phase(), Phase::refused);
   EXPECT_EQ(task_->trouble(), "the plan has 2 markers, at least 3 tell how a head lies");
 }

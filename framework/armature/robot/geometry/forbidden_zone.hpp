@@ -13,6 +13,9 @@ struct ForbiddenZone {
   std::string name;
   Eigen::Vector3d from, to;  // [m]
   double radius_m = 0;
+  /// The tool goes into it, at the end of its way and on straight lines only (a head). Everything
+  /// else keeps away from it always, and so does the tool before.
+  bool tool_enters = false;
 };
 
 /// What is wrong with it, or nullopt: a number that is not finite, a radius below 0.

@@ -38,12 +38,13 @@ class Posture {
   std::array<Eigen::Isometry3d, kMaxJoints> frames_;
 };
 
-/// The nearest zone of one capsule.
+/// The nearest zone of one capsule; of one that `may_enter` only those that no tool enters.
 LinkClearance nearest_zone(const Posture& posture, const LinkCapsule& capsule, std::size_t index,
-                           std::span<const ForbiddenZone> zones) {
+                           std::span<const ForbiddenZone> zones, bool may_enter = false) {
   LinkClearance least{.capsule = index, .zone = 0, .distance_m = kInfinity};
   const Line line = posture.line(capsule);
   for (std::size_t z = 0; z < zones.size(); ++z) {
+    if (may_enter && zones[z].tool_enters) continue;
     const double distance = clearance(line.from, line.to, zones[z]) - capsule.radius;
     // NaN is nearer than anything.
     if (std::isnan(distance) || distance < least.distance_m) least = {index, z, distance};
@@ -112,9 +113,10 @@ std::optional<LinkClearance> link_clearance(const RobotModel& model, const Joint
 std::optional<LinkViolation> first_violation(const RobotModel& model,
                                              const TrajectoryView& trajectory,
                                              std::span<const ForbiddenZone> zones,
-                                             double min_distance_m) {
+                                             double min_distance_m, double tool_enters_s) {
   constexpr double kShortestStep_s = 1e-5;
   if (zones.empty()) return std::nullopt;
+  const int carrier = model.frame(model.tool()).parent_joint;
   std::vector<JointVector> reach;
   for (const LinkCapsule& capsule : model.capsules()) reach.push_back(reach_of(capsule, model));
   for (int piece = 0; piece < trajectory.piece_count(); ++piece) {
@@ -125,7 +127,9 @@ std::optional<LinkViolation> first_violation(const RobotModel& model,
       double step = kInfinity;
       std::optional<LinkClearance> too_near;
       for (std::size_t c = 0; c < reach.size(); ++c) {
-        const LinkClearance near = nearest_zone(posture, model.capsules()[c], c, zones);
+        const LinkCapsule& capsule = model.capsules()[c];
+        const bool may_enter = t >= tool_enters_s && capsule.parent_joint == carrier;
+        const LinkClearance near = nearest_zone(posture, capsule, c, zones, may_enter);
         const double room = near.distance_m - min_distance_m;
         const bool nearest = !too_near || near.distance_m < too_near->distance_m;
         if (!(room >= 0) && nearest) too_near = near;

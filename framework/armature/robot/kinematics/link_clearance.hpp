@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -22,8 +23,14 @@ struct LinkClearance {
 std::optional<LinkClearance> link_clearance(const RobotModel& model, const JointVector& q,
                                             std::span<const ForbiddenZone> zones);
 
+/// The tool enters no zone, whatever the zones say.
+constexpr double kToolEntersNothing = std::numeric_limits<double>::infinity();
+
 /// The first place of a trajectory where a link is nearer to a zone than `min_distance_m`, and when
 /// [s] behind its start that is; nullopt where none is.
+///
+/// The link that carries the tool may be in zones that the tool enters (`ForbiddenZone`) from
+/// `tool_enters_s` on, [s] behind the start; nothing else ever.
 ///
 /// Conservative advancement: from one instant to the next no point of a link can come nearer than
 /// that by more than 0.05 mm, as the joints' greatest speeds on each piece and the lengths of the
@@ -35,6 +42,7 @@ struct LinkViolation {
 std::optional<LinkViolation> first_violation(const RobotModel& model,
                                              const TrajectoryView& trajectory,
                                              std::span<const ForbiddenZone> zones,
-                                             double min_distance_m);
+                                             double min_distance_m,
+                                             double tool_enters_s = kToolEntersNothing);
 
 }  // namespace armature

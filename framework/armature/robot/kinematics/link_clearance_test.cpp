@@ -139,6 +139,24 @@ TEST(LinkClearance, AThinZoneThatAFastLinkSweepsThroughIsNotSteppedOver) {
   EXPECT_NEAR(found->t_s, 0.005, 1e-4);
 }
 
+TEST(LinkClearance, AZoneThatTheToolEntersIsLeftToTheNeedleFromItsTimeOnAndToNoOtherLink) {
+  JointVector out = resting_position(sr1());
+  JointVector in = out;
+  in[0] += 0.4;
+  const Trajectory trajectory = move(out, in, 1);
+  const Vector3d tip = forward_kinematics(sr1(), in).translation();
+  const auto found = [&](double radius, bool tool_enters, double from_s) {
+    const std::vector<ForbiddenZone> zones{{"head", tip, tip, radius, tool_enters}};
+    const auto violation = first_violation(sr1(), trajectory.view(), zones, 0.002, from_s);
+    return violation ? sr1().capsules()[violation->where.capsule].name : "";
+  };
+  EXPECT_EQ(found(0.02, true, 0), "");
+  EXPECT_EQ(found(0.02, false, 0), "needle") << "no tool enters it";
+  EXPECT_EQ(found(0.02, true, 1.5), "needle") << "not yet";
+  EXPECT_EQ(found(0.02, true, kToolEntersNothing), "needle");
+  EXPECT_NE(found(0.25, true, 0), "") << "the wrist is no tool";
+}
+
 TEST(LinkClearance, WhatIsNotANumberIsNotClear) {
   const JointVector home = resting_position(sr1());
   Trajectory trajectory = move(home, home, 1);

@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/merge.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
 #include <memory>
 #include <optional>
 #include <set>
-#include <stdexcept>
-#include <system_error>
 #include <utility>
 
 #include "armature/recording/hash_chain.hpp"
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_writer.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
+#include "armature/runtime/reporting/draft.hpp"
 #include "exit_code.hpp"
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
@@ -138,40 +133,11 @@ Part* earliest(const Parts& parts) {
   return first;
 }
 
-/// A file that is being written, and taken away again unless it has got its name. Nobody else's can
-/// be in its place, and nobody else may read it.
-class Draft {
- public:
-  /// Throws std::runtime_error when it cannot be made.
-  explicit Draft(std::filesystem::path named) : named_{std::move(named)} {
-    std::string name = named_.string() + ".joining-XXXXXX";
-    const int made = mkostemp(name.data(), O_CLOEXEC);
-    if (made < 0) {
-      throw std::runtime_error(
-          fmt::format("cannot write '{}': {}", name, std::generic_category().message(errno)));
-    }
-    close(made);
-    path_ = name;
-  }
-  ~Draft() {
-    std::error_code none;
-    if (!path_.empty()) std::filesystem::remove(path_, none);
-  }
-  Draft(const Draft&) = delete;
-  Draft& operator=(const Draft&) = delete;
-
-  const std::filesystem::path& path() const { return path_; }
-  void give_name() { std::filesystem::rename(std::exchange(path_, {}), named_); }
-
- private:
-  std::filesystem::path named_, path_;
-};
-
 }  // namespace
 
 JoinedRecording join_recordings(const std::vector<std::filesystem::path>& parts,
                                 const std::filesystem::path& out) {
-  Draft draft{out};
+  Draft draft{out, "joining"};  // nobody else may read it
   McapWriter writer{draft.path(), {.library = "armature " ARMATURE_VERSION}};
   Parts open;
   for (const auto& file : parts) open.push_back(std::make_unique<Part>(file, writer));

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/reporting/write_atomically.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <stdexcept>
-#include <string>
 #include <system_error>
+
+#include "armature/runtime/reporting/draft.hpp"
 
 namespace armature {
 namespace {
@@ -38,20 +37,17 @@ void write_atomically(const std::filesystem::path& target, std::string_view text
     throw std::runtime_error{
         fmt::format("cannot write '{}': it is no regular file", file.string())};
   }
-  const std::string beside = fmt::format("{}.{}", file.string(), getpid());
-  const auto failed = [&](int error) {
-    unlink(beside.c_str());
-    return std::runtime_error{
-        fmt::format("cannot write '{}': {}", file.string(), std::strerror(error))};
-  };
-  const int descriptor = open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
-                              use == FileUse::named_by_user ? 0666 : 0600);
-  if (descriptor < 0) throw failed(errno);
-  const bool written = write_all(descriptor, text);
-  const int error = errno;
-  close(descriptor);
-  if (!written) throw failed(error);
-  if (std::rename(beside.c_str(), file.c_str()) != 0) throw failed(errno);
+  Draft draft{file, "draft", use == FileUse::named_by_user ? mode_t{0666} : mode_t{0600}};
+  if (!write_all(draft.descriptor(), text)) {
+    throw std::runtime_error{
+        fmt::format("cannot write '{}': {}", file.string(), std::strerror(errno))};
+  }
+  try {
+    draft.give_name();
+  } catch (const std::filesystem::filesystem_error& error) {
+    throw std::runtime_error{
+        fmt::format("cannot write '{}': {}", file.string(), error.code().message())};
+  }
 }
 
 }  // namespace armature

@@ -87,6 +87,17 @@ TEST_F(WriteAtomically, DoesNotFollowALink) {
   EXPECT_EQ(content_of(file_), "ours");
 }
 
+TEST_F(WriteAtomically, IsNotHinderedByWhatARunBeforeAPowerCutHasLeft) {
+  // In a container every run may have the same pid.
+  const fs::path left = folder_ / ("report.json." + std::to_string(getpid()));
+  std::ofstream{left} << "half of an older";
+  for (const char* text : {"good", "better"}) {
+    write_atomically(file_, text);
+    EXPECT_EQ(content_of(file_), text);
+    EXPECT_EQ(content_of(left), "half of an older") << "nobody has made it here";
+  }
+}
+
 TEST_F(WriteAtomically, OnAFullDiskTellsWhyAndLeavesTheFolderAsItWas) {
   write_atomically(file_, "older");
   const LittleRoom room{1000};

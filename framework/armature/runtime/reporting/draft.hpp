@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string_view>
+
+namespace armature ARMATURE_EXPORT {
+
+/// A file that is being written beside the one that it becomes, and taken away again unless it has
+/// got its name. Its own name is drawn by lot: nothing that was there, of another process or from
+/// before a power cut, is in its way, and nothing is replaced but by `give_name`.
+class Draft {
+ public:
+  /// "run.mcap.joining-5f31c0" for "run.mcap" and "joining". `mode`: its permissions, of which the
+  /// umask takes some. Throws std::runtime_error when it cannot be made.
+  Draft(std::filesystem::path named, std::string_view purpose, mode_t mode = 0600);
+  ~Draft();
+  Draft(const Draft&) = delete;
+  Draft& operator=(const Draft&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  /// Open for writing, until it has its name.
+  int descriptor() const { return descriptor_; }
+  /// Replaces what has the name. Throws std::filesystem::filesystem_error when it cannot.
+  void give_name();
+
+ private:
+  void close_file();
+
+  std::filesystem::path named_, path_;
+  int descriptor_ = -1;
+};
+
+}  // namespace armature

@@ -24,6 +24,7 @@ McapQueue::McapQueue(const std::filesystem::path& file, McapWriter::Options opti
 
 McapQueue::McapQueue(Around around, McapWriter::Options options)
     : options_{std::move(options)}, when_full_{WhenFull::drop}, around_{std::move(around)} {
+  options_.keeps_older = true;
   thread_ = std::thread{[this] { run(); }};
 }
 
@@ -166,10 +167,7 @@ void McapQueue::keep(Message& message) {
   }
 }
 
-void McapQueue::open(const std::filesystem::path& file) {
-  file_ = file;
-  writer_.emplace(file, options_);
-}
+void McapQueue::open(const std::filesystem::path& file) { writer_.emplace(file, options_); }
 
 void McapQueue::begin_around(Time moment) {
   until_ = moment + around_->before_and_after;
@@ -187,8 +185,9 @@ void McapQueue::end_file() {
   messages_ += writer_->messages();
   bytes_ += writer_->bytes();
   head_ = to_hex(writer_->head());
+  const std::filesystem::path file = writer_->file();
   writer_.reset();
-  if (around_) around_->told(file_);
+  if (around_) around_->told(file);
 }
 
 }  // namespace armature

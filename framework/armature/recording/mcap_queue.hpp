@@ -31,8 +31,9 @@ class McapQueue {
   /// What is kept in memory, at most kMaxWaiting bytes, and written when a moment is marked.
   struct Around {
     Duration before_and_after;
-    std::function<std::filesystem::path(Time)> file;         // of a moment
-    std::function<void(const std::filesystem::path&)> told;  // that the file is whole
+    /// Of a moment. A file that is there stays: "fault-2.mcap" is taken, "fault-3.mcap", ...
+    std::function<std::filesystem::path(Time)> file;
+    std::function<void(const std::filesystem::path&)> told;  // which one is whole
   };
 
   /// Throws std::runtime_error when the file cannot be written.
@@ -91,15 +92,14 @@ class McapQueue {
   void begin_around(Time moment);
   void end_file();
 
-  const McapWriter::Options options_;
+  McapWriter::Options options_;
   const WhenFull when_full_;
   std::optional<Around> around_;
   // Of the thread:
   std::optional<McapWriter> writer_;  // none: what comes is kept
-  std::filesystem::path file_;
-  Time until_;                  // when the file around a moment ends
-  std::vector<Item> preamble_;  // all but messages
-  std::deque<Message> kept_;    // before the next moment
+  Time until_;                        // when the file around a moment ends
+  std::vector<Item> preamble_;        // all but messages
+  std::deque<Message> kept_;          // before the next moment
   std::size_t kept_bytes_ = 0;
   std::uint64_t messages_ = 0, bytes_ = 0;  // of files that have ended
   std::string head_;

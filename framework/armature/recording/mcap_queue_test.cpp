@@ -10,6 +10,7 @@
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -110,6 +111,26 @@ TEST_F(McapQueueTest, AMomentWithinTheFileOfAnotherMakesItLonger) {
   EXPECT_THAT(times_in(folder_ / "5.mcap"), ElementsAre(3, 4, 5, 6, 7, 8));
   EXPECT_THAT(times_in(folder_ / "15.mcap"), ElementsAre(13, 14, 15, 16, 17));
   EXPECT_THAT(told_, ElementsAre("5.mcap", "15.mcap"));
+}
+
+TEST_F(McapQueueTest, AnotherMomentOfTheSameNameReplacesNothing) {
+  McapQueue::Around same_name = around(2);
+  same_name.file = [this](Time) { return folder_ / "fault-2026.mcap"; };
+  std::ofstream{folder_ / "fault-2026-3.mcap"} << "of somebody else";
+  {
+    McapQueue queue{same_name, {}};
+    const auto channel = queue.add_channel("/a", kType);
+    for (int i = 0; i < 30; ++i) {
+      write(queue, channel, i);
+      if (i % 10 == 5) queue.mark(Time{} + seconds(i));
+    }
+    queue.close();
+  }
+  EXPECT_THAT(told_, ElementsAre("fault-2026.mcap", "fault-2026-2.mcap", "fault-2026-4.mcap"));
+  EXPECT_THAT(times_in(folder_ / told_[0]), ElementsAre(3, 4, 5, 6, 7));
+  EXPECT_THAT(times_in(folder_ / told_[1]), ElementsAre(13, 14, 15, 16, 17));
+  EXPECT_THAT(times_in(folder_ / told_[2]), ElementsAre(23, 24, 25, 26, 27));
+  EXPECT_EQ(fs::file_size(folder_ / "fault-2026-3.mcap"), 16U);
 }
 
 TEST_F(McapQueueTest, WithoutAMomentThereIsNoFile) {

@@ -101,11 +101,7 @@ class McapWriter::Zstd {
 
 McapWriter::McapWriter(std::filesystem::path file, Options options)
     : file_{std::move(file)}, options_{std::move(options)}, zstd_{std::make_unique<Zstd>()} {
-  descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (descriptor_ < 0) {
-    throw std::runtime_error(fmt::format("cannot write '{}': {}", file_.string(),
-                                         std::generic_category().message(errno)));
-  }
+  create();
   make_private(descriptor_);
   if (options_.chain) chain_.emplace();
   Bytes bytes;
@@ -116,6 +112,22 @@ McapWriter::McapWriter(std::filesystem::path file, Options options)
   end_record(bytes, begin);
   put_hashed(bytes);
   put_link();
+}
+
+void McapWriter::create() {
+  constexpr int kMostOfOneName = 10'000;
+  const std::filesystem::path named = file_;
+  const int if_there = options_.keeps_older ? O_EXCL : O_TRUNC;
+  for (int number = 2; number <= kMostOfOneName; ++number) {
+    descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | if_there | O_CLOEXEC, 0600);
+    if (descriptor_ >= 0) return;
+    if (errno != EEXIST) break;
+    file_ = named;
+    file_.replace_filename(
+        fmt::format("{}-{}{}", named.stem().string(), number, named.extension().string()));
+  }
+  throw std::runtime_error(
+      fmt::format("cannot write '{}': {}", named.string(), std::generic_category().message(errno)));
 }
 
 McapWriter::~McapWriter() {

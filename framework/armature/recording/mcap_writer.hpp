@@ -28,6 +28,9 @@ class McapWriter {
     bool compress = true;                // chunks, with zstd
     std::size_t chunk_bytes = 1U << 20;  // of messages, until a chunk is written
     bool chain = true;                   // of hashes, by which a change is found
+    /// A file that is there stays, and "fault-2.mcap" is taken, "fault-3.mcap" and so on; else it
+    /// is replaced.
+    bool keeps_older = false;
   };
 
   McapWriter(std::filesystem::path file, Options options);
@@ -49,6 +52,8 @@ class McapWriter {
   /// Ends the file, with its summary.
   void close();
 
+  /// Where it stands.
+  const std::filesystem::path& file() const { return file_; }
   std::uint64_t messages() const { return messages_; }
   std::uint64_t bytes() const { return position_; }
   /// How many links of the chain stand in the file, and the hash of the last one. After close() it
@@ -57,6 +62,9 @@ class McapWriter {
   const Hash& head() const { return head_; }
 
  private:
+  /// Makes the file, under another name where it is there and is to stay.
+  void create();
+
   using Bytes = std::vector<std::byte>;
   struct IndexEntry {
     std::int64_t time;

@@ -16,10 +16,10 @@ namespace armature {
 
 std::filesystem::path RecordConfig::file_of(std::string_view process, Time start) const {
   const std::time_t second = start.ns / 1'000'000'000;
-  tm local{};
-  localtime_r(&second, &local);
+  tm utc{};  // of which no hour comes twice
+  gmtime_r(&second, &utc);
   std::array<char, 4096> name{};
-  const std::size_t size = std::strftime(name.data(), name.size(), file.c_str(), &local);
+  const std::size_t size = std::strftime(name.data(), name.size(), file.c_str(), &utc);
   return part_of(std::string{name.data(), size}, process);
 }
 

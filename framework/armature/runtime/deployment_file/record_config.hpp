@@ -17,7 +17,7 @@ struct ComponentConfig;
 
 /// `record:` of a deployment file: what a run keeps of itself, to be replayed.
 struct RecordConfig {
-  std::filesystem::path file;       // may say the time as strftime does: "%Y%m%d-%H%M%S.mcap"
+  std::filesystem::path file;       // may say the time, UTC, as strftime does: "%Y%m%d-%H%M%S.mcap"
   std::vector<std::string> topics;  // "/dental_lamp/*" for all that begin so; empty: all
   bool compress = true;
   bool thin = false;                      // only as much as a page of the run shows, no activations

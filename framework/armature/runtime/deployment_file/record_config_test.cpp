@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "armature/runtime/deployment_file/record_config.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <ctime>
+#include <optional>
+#include <string>
+
+namespace armature {
+namespace {
+
+/// The zone of the machine, for a while.
+class InTimeZone {
+ public:
+  explicit InTimeZone(const char* zone) {
+    if (const char* before = std::getenv("TZ")) before_ = before;
+    set(zone);
+  }
+  ~InTimeZone() { set(before_ ? before_->c_str() : nullptr); }
+  InTimeZone(const InTimeZone&) = delete;
+  InTimeZone& operator=(const InTimeZone&) = delete;
+
+ private:
+  static void set(const char* zone) {
+    zone ? setenv("TZ", zone, 1) : unsetenv("TZ");
+    tzset();
+  }
+  std::optional<std::string> before_;
+};
+
+TEST(RecordConfig, NamesNoTwoTimesOfTheNightWhenSummerTimeEndsTheSame) {
+  const InTimeZone berlin{"CET-1CEST,M3.5.0,M10.5.0/3"};
+  RecordConfig record;
+  record.file = "fault-%Y%m%d-%H%M%S.mcap";
+  const Time summer{1'792'888'200'000'000'000};  // Sunday 2026-10-25 00:30:00 UTC: 02:30 there
+  const Time winter = summer + seconds(3600.0);  // 02:30 there, again
+  EXPECT_EQ(record.file_of("main", summer), "fault-20261025-003000.mcap");
+  EXPECT_EQ(record.file_of("main", winter), "fault-20261025-013000.mcap");
+  EXPECT_EQ(record.file_of("vision", winter), "fault-20261025-013000.vision.mcap");
+}
+
+}  // namespace
+}  // namespace armature

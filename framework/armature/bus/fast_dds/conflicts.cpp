@@ -99,7 +99,9 @@ void Conflicts::compare(const OwnEndpoint& own, const Endpoint& other, const Dis
 void Conflicts::report(const TransportEvent& event) {
   {
     const std::scoped_lock lock{mutex_};
-    if (!reported_.emplace(event.kind, event.topic + "\n" + event.text).second) return;
+    const std::pair what{event.kind, event.topic + "\n" + event.text};
+    if (reported_.find(what)) return;
+    reported_.put(what, {});
   }
   report_always(event);
 }

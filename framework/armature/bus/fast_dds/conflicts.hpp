@@ -2,14 +2,15 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <mutex>
-#include <set>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "armature/bus/fast_dds/discovery.hpp"
 #include "armature/bus/transport.hpp"
+#include "armature/values/recent.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
@@ -33,7 +34,7 @@ class Conflicts {
 
   /// Whether samples of that writer must not reach a reader of ours.
   bool refuses(const Endpoint& writer, const OwnEndpoint& reader) const;
-  /// Reports `event` unless the same was reported before.
+  /// Reports `event` unless the same was reported before, and not a thousand others since.
   void report(const TransportEvent& event);
   /// What may happen again: a peer that was lost.
   void report_always(const TransportEvent& event) const;
@@ -48,7 +49,7 @@ class Conflicts {
   std::function<void(const TransportEvent&)> on_event_;
   mutable std::mutex mutex_;
   std::vector<OwnEndpoint> endpoints_;
-  std::set<std::pair<TransportEvent::Kind, std::string>> reported_;
+  Recent<std::pair<TransportEvent::Kind, std::string>, std::monostate> reported_{2000};
 };
 
 }  // namespace armature

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <algorithm>
 #include <fastdds/dds/subscriber/DataReader.hpp>
 #include <fastdds/dds/subscriber/DataReaderListener.hpp>
 #include <fastdds/dds/subscriber/SampleInfo.hpp>
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
-#include <map>
 #include <utility>
 
 #include "armature/bus/fast_dds/cdr_payload.hpp"
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/fast_dds_link.hpp"
 #include "armature/bus/fast_dds/guid_of.hpp"
+#include "armature/bus/fast_dds/refusal_counts.hpp"
 #include "armature/bus/fast_dds/sequence_gaps.hpp"
 #include "armature/bus/topic_name.hpp"
+#include "armature/values/recent.hpp"
 
 namespace armature {
 namespace {
@@ -67,7 +67,7 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
   int peers() const override { return peers_.load(std::memory_order_relaxed); }
   std::vector<RefusedSamples> refused() const override {
     const std::scoped_lock lock{mutex_};
-    return refused_;
+    return refused_.all();
   }
 
  private:
@@ -88,7 +88,7 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
     const Guid writer = guid_of(info.sample_identity.writer_guid());
     if (writer.participant == link_->participant->guid_prefix()) return true;
     if (const auto stranger = stranger_of(writer)) {
-      count_refused(*stranger);
+      refused_.add(*stranger);
       return true;
     }
     const std::uint64_t sequence = info.sample_identity.sequence_number().to64long();
@@ -119,7 +119,7 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
   /// Whose samples of that writer are refused; nothing when they are taken. A writer that is not
   /// discovered (yet) is nobody's.
   std::optional<std::string> stranger_of(const Guid& writer) {
-    if (const auto known = strangers_.find(writer); known != strangers_.end()) return known->second;
+    if (const auto* known = strangers_.find(writer)) return *known;
     const Discovery& discovery = link_->participant->discovery();
     const auto endpoint = discovery.find(writer);
     if (discovery.is_ignored(writer.participant)) return discovery.who(writer.participant);
@@ -129,13 +129,7 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
     }
     std::optional<std::string> stranger;
     if (link_->conflicts.refuses(*endpoint, own_)) stranger = discovery.owner(*endpoint);
-    return strangers_[writer] = stranger;
-  }
-
-  void count_refused(const std::string& writer) {
-    auto known = std::ranges::find(refused_, writer, &RefusedSamples::writer);
-    if (known == refused_.end()) known = refused_.insert(known, {.writer = writer, .count = 0});
-    ++known->count;
+    return strangers_.put(writer, stranger);
   }
 
   /// Only the deployment's own processes share our clock. Whoever else writes is judged by when his
@@ -148,10 +142,9 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
   }
 
   bool is_peer(const Guid& writer) {
-    const auto known = peer_writers_.find(writer);
-    if (known != peer_writers_.end()) return known->second;
+    if (const bool* known = peer_writers_.find(writer)) return *known;
     if (!link_->participant->discovery().find(writer)) return false;
-    return peer_writers_[writer] = link_->is_peer(writer);
+    return peer_writers_.put(writer, link_->is_peer(writer));
   }
 
   bool is_expired(Time published) const {
@@ -211,10 +204,10 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
   bool closed_ = false;
   SampleRef next_;  // what the next sample is decoded into
   SequenceGaps gaps_;
-  std::uint64_t lost_ = 0;  // since the sample that was delivered last
-  std::map<Guid, std::optional<std::string>> strangers_;  // nothing: a writer that is heard
-  std::map<Guid, bool> peer_writers_;
-  std::vector<RefusedSamples> refused_;
+  std::uint64_t lost_ = 0;                              // since the sample that was delivered last
+  Recent<Guid, std::optional<std::string>> strangers_;  // nothing: a writer that is heard
+  Recent<Guid, bool> peer_writers_;
+  RefusalCounts refused_;
 };
 
 }  // namespace

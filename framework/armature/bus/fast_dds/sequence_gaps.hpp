@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <map>
+#include <utility>
 
 #include "armature/bus/fast_dds/discovery.hpp"
+#include "armature/values/recent.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
@@ -15,16 +17,16 @@ class SequenceGaps {
   /// How many samples of `writer` are missing between its last one and this one, numbered
   /// `sequence`.
   std::uint64_t lost_before(const Guid& writer, std::uint64_t sequence) {
-    const auto [place, is_first] = last_.try_emplace(writer, sequence);
-    std::uint64_t& last = place->second;
-    if (is_first || sequence <= last) return 0;
-    const std::uint64_t lost = sequence - last - 1;
-    last = sequence;
-    return lost;
+    std::uint64_t* last = last_.find(writer);
+    if (!last) last_.put(writer, sequence);
+    if (!last || sequence <= *last) return 0;
+    return sequence - std::exchange(*last, sequence) - 1;
   }
+  /// How many are remembered: those that were heard last.
+  std::size_t writers() const { return last_.size(); }
 
  private:
-  std::map<Guid, std::uint64_t> last_;
+  Recent<Guid, std::uint64_t> last_;
 };
 
 }  // namespace armature

@@ -32,7 +32,10 @@ bool LostPeers::is_told_here(std::string_view note) {
   const auto first = std::ranges::find_if(
       processes_, [&](const std::string& process) { return !is_of(note, process); });
   if (first == processes_.end() || *first != own_) return false;
-  return reported_.emplace(place_in(note)).second;
+  const std::string place{place_in(note)};
+  if (reported_.find(place)) return false;
+  reported_.put(place, {});
+  return true;
 }
 
 }  // namespace armature

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <set>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
+
+#include "armature/values/recent.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
@@ -28,7 +30,7 @@ class LostPeers {
   std::string deployment_;
   std::vector<std::string> processes_;
   std::string own_;
-  std::set<std::string, std::less<>> reported_;  // "(pid 12 on host)", or the whole note
+  Recent<std::string, std::monostate> reported_;  // "(pid 12 on host)", or the whole note
 };
 
 }  // namespace armature

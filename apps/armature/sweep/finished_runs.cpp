@@ -11,6 +11,7 @@
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "armature/values/json_text.hpp"
@@ -18,6 +19,16 @@
 namespace armature::sweep {
 
 using Json = nlohmann::ordered_json;
+
+namespace {
+
+/// Whether `line`, which has no end, was to become a line of a sweep.
+bool is_begun(std::string_view line) {
+  constexpr std::string_view kBegin = R"({"fingerprint":)";
+  return line.starts_with(kBegin) || kBegin.starts_with(line);
+}
+
+}  // namespace
 
 FinishedRuns::FinishedRuns(std::optional<std::filesystem::path> file) : file_{std::move(file)} {
   if (!file_) return;
@@ -48,7 +59,7 @@ void FinishedRuns::read() {
     const bool is_run = read.is_object() && read.contains("seed") && read.contains("report") &&
                         read.contains("fingerprint") && read["fingerprint"].is_string() &&
                         read["seed"].is_number_unsigned() && read["report"].is_object();
-    if (is_torn && line.starts_with(R"({"fingerprint":)")) {
+    if (is_torn && is_begun(line)) {
       if (ftruncate(descriptor_, static_cast<off_t>(whole)) != 0) {
         throw std::runtime_error(fmt::format("{}: {}", file_->string(), std::strerror(errno)));
       }

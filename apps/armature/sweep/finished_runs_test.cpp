@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sweep/finished_runs.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace armature::sweep {
+namespace {
+
+namespace fs = std::filesystem;
+
+class FinishedRunsTest : public testing::Test {
+ protected:
+  FinishedRunsTest() { fs::create_directories(folder_); }
+  ~FinishedRunsTest() override { fs::remove_all(folder_); }
+
+  void write(const std::string& text) const { std::ofstream{file_} << text; }
+  std::string text() const {
+    std::ifstream stream{file_};
+    return {std::istreambuf_iterator<char>{stream}, {}};
+  }
+
+  const fs::path folder_ =
+      fs::temp_directory_path() / ("armature-finished-runs-" + std::to_string(getpid()));
+  const fs::path file_ = folder_ / "runs.jsonl";
+};
+
+TEST_F(FinishedRunsTest, ALineThatWasCutAnywhereIsTakenAwayAndItsRunIsToBeDone) {
+  {
+    FinishedRuns runs{file_};
+    runs.add({"abc", 1}, {{"status", "ok"}});
+  }
+  const std::string first = text();
+  {
+    FinishedRuns runs{file_};
+    runs.add({"abc", 2}, {{"status", "ok"}});
+  }
+  const std::string second = text().substr(first.size());
+  for (std::size_t bytes = 1; bytes < second.size(); ++bytes) {
+    write(first + second.substr(0, bytes));
+    const FinishedRuns runs{file_};
+    EXPECT_TRUE(runs.find({"abc", 1})) << bytes;
+    EXPECT_FALSE(runs.find({"abc", 2})) << bytes;
+    EXPECT_EQ(text(), first) << bytes;
+  }
+}
+
+TEST_F(FinishedRunsTest, AFileOfSomethingElseIsLeftAlone) {
+  for (const char* other : {"important notes", "{\"fingers\": 5", "{\"finge\n"}) {
+    write(other);
+    EXPECT_THROW(FinishedRuns{file_}, std::runtime_error) << other;
+    EXPECT_EQ(text(), other);
+  }
+}
+
+}  // namespace
+}  // namespace armature::sweep

@@ -43,5 +43,13 @@ TEST(TheCommandLine, FindsAShippedDeploymentByItsNameFromAnyFolder) {
                                    "'dental_lmp' came with armature; did you mean 'dental_lamp'"));
 }
 
+TEST(TheCommandLine, TakesNoValueForAFileAndSaysWhereItGoes) {
+  const auto result =
+      run_command({armature(), "check", "dental_lamp", "--set", "clock=simulated", "seed=3"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.err,
+            "cannot read 'seed=3': No such file or directory; is it a value? Write --set seed=3\n");
+}
+
 }  // namespace
 }  // namespace armature::test

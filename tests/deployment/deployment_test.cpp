@@ -183,6 +183,26 @@ TEST_F(DeploymentTest, AMetricThatItsPluginDoesNotDeclareIsAFaultThatNamesIt) {
           "not declare under 'measures:'"}));
 }
 
+TEST_F(DeploymentTest, AMetricThatIsNotFiniteIsAFaultWithAndWithoutAGoal) {
+  const std::string defect =
+      "ear: plugin 'test/ear' reports the metric 'oldest_order_s', which is not finite; what was "
+      "not measured is told with its reason, by Summary::not_measured()";
+  const Told told = run("", ", params: {reports_nan: true}");
+  EXPECT_EQ(told.status, "fault");
+  EXPECT_EQ(told.reasons, std::vector<std::string>{defect});
+  const Told judged = run("", ", params: {reports_nan: true}", "goals: {oldest_order_s: 1}\n");
+  EXPECT_EQ(judged.reasons, (std::vector<std::string>{defect, "oldest_order_s is not finite"}));
+}
+
+TEST_F(DeploymentTest, WhatCutARunOffIsToldInTableAndJson) {
+  const Told cut = run("", ", params: {listens_s: 1}", "run: {time_limit_s: 0.25}\n");
+  EXPECT_EQ(cut.status, "ok") << "nothing says that it was to do more";
+  EXPECT_NE(cut.json.find(R"("ended_by":"the time limit of 0.25 s is over")"), std::string::npos)
+      << cut.json;
+  EXPECT_NE(cut.table.find("the time limit of 0.25 s is over\n"), std::string::npos) << cut.table;
+  EXPECT_EQ(run("", "").json.find("ended_by"), std::string::npos) << "it came to its end";
+}
+
 TEST_F(DeploymentTest, WhatAComponentThrowsIsAFaultThatNamesItAndTheOthersFiguresAreKept) {
   for (const std::string place : {"step", "stop", "summarize"}) {
     const Told told = run(", params: {throws_in: " + place + "}", "");
@@ -194,6 +214,9 @@ TEST_F(DeploymentTest, WhatAComponentThrowsIsAFaultThatNamesItAndTheOthersFigure
   EXPECT_EQ(
       run(", params: {throws_in: step, throws_number: true}", "").reasons,
       (std::vector<std::string>{"beat: step failed: an exception that is no std::exception"}));
+  EXPECT_EQ(run(", params: {throws_in: step, throws_silently: true}", "").reasons,
+            (std::vector<std::string>{
+                "beat: step failed: an exception without a text, std::runtime_error"}));
 }
 
 TEST_F(DeploymentTest, AComponentThatFailsInItsConstructorIsNamedWithItsPlaceInTheFile) {

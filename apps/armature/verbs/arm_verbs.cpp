@@ -21,6 +21,9 @@ void add_calculators(CLI::App& app, Action& action) {
   add_arm(fk, *arm);
   fk->get_option("--robot")->required();
   fk->add_option("input", *input, "file of JSON lines (standard input)");
+  fk->footer(
+      "A line has all joints, in radians and metres:\n"
+      "  echo '{\"joints\":[0,0,0,0,0,0]}' | armature fk --robot configs/robots/dental_lamp.yaml");
   fk->callback([=, &action] { action = [=] { return run_fk(*arm, *input); }; });
 
   CLI::App* ik = app.add_subcommand("ik", "Inverse kinematics: JSON lines in, JSON lines out");
@@ -29,6 +32,11 @@ void add_calculators(CLI::App& app, Action& action) {
   ik->add_option("--plugin", solver->plugin, "solver")->capture_default_str();
   ik->add_option("--params", solver->params, "its parameters, a YAML map: '{max_restarts: 3}'");
   ik->add_option("input", *input, "file of JSON lines (standard input)");
+  ik->footer(
+      "A line has position_m, and direction or quaternion_xyzw; it may have seed (joints),\n"
+      "redundancy_rad or redundancy_m, tolerance_m, tolerance_rad and max_iterations:\n"
+      "  echo '{\"position_m\":[1.3,0.321,0.504],\"direction\":[1,0,0]}' | armature ik --robot "
+      "configs/robots/dental_lamp.yaml");
   ik->callback([=, &action] { action = [=] { return run_ik(*arm, *solver, *input); }; });
 }
 

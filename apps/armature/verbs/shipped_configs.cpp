@@ -36,7 +36,7 @@ std::vector<fs::path> shipped_deployments() { return yaml_files(shipped_config_f
 std::vector<fs::path> shipped_robots() { return yaml_files(shipped_config_folder() / "robots"); }
 
 std::string deployment_file(const std::string& given) {
-  const bool is_name = given.find_first_of("./") == std::string::npos && !fs::exists(given);
+  const bool is_name = given.find_first_of("./=") == std::string::npos && !fs::exists(given);
   if (!is_name) return given;
   std::vector<std::string> names;
   for (const fs::path& file : shipped_deployments()) {

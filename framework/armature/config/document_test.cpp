@@ -58,6 +58,9 @@ TEST_F(Documents, SayWhyAFileCannotBeRead) {
   write("a.yaml", "x: 1\ninclude: sub/missing.yaml\n");
   EXPECT_EQ(merged({"missing.yaml"}), "cannot read 'missing.yaml': No such file or directory");
   EXPECT_EQ(merged({"sub"}), "cannot read 'sub': Is a directory");
+  EXPECT_EQ(merged({"clock=simulated"}),
+            "cannot read 'clock=simulated': No such file or directory; is it a value? Write --set "
+            "clock=simulated");
   EXPECT_EQ(merged({"a.yaml"}),
             "a.yaml:2:10: cannot read 'sub/missing.yaml': No such file or directory");
   write("list.yaml", "[1]\n");
@@ -198,6 +201,9 @@ TEST_F(Documents, AssignmentsThatCannotBeMadeAreErrors) {
   EXPECT_EQ(failure("arm"), "--set arm: must be path.to.key=value");
   EXPECT_EQ(failure("arm..x=1"),
             "--set arm..x=1: the path has an empty part; it must be path.to.key=value");
+  EXPECT_EQ(failure("include=b.yaml"),
+            "--set include=b.yaml: 'include' stands in a file; name the other file on the command "
+            "line instead");
   EXPECT_EQ(failure("=1"), "--set =1: the path has an empty part; it must be path.to.key=value");
   EXPECT_EQ(failure("arm="),
             "--set arm=: has no value; write null to remove the key, or \"\" for an empty text");

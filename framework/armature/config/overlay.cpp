@@ -106,6 +106,10 @@ class Assignment {
       complain(fault);
       return;
     }
+    if (keys_.front() == kInclude) {
+      complain("'include' stands in a file; name the other file on the command line instead");
+      return;
+    }
     value_ = parse_yaml(option.substr(equals + 1), origin_.file, origin_);
     if (has_no_value(value_)) {
       complain("has no value; write null to remove the key, or \"\" for an empty text");

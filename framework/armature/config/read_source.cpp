@@ -61,7 +61,14 @@ class Source {
 
  private:
   [[noreturn]] void fail(const std::string& reason) const {
-    throw ConfigError{{{asked_by_, fmt::format("cannot read '{}': {}", file_.string(), reason)}}};
+    throw ConfigError{
+        {{asked_by_, fmt::format("cannot read '{}': {}{}", file_.string(), reason, hint())}}};
+  }
+  /// A value of a second `--set`, which takes one.
+  std::string hint() const {
+    const std::string file = file_.string();
+    if (asked_by_.line != 0 || file.find('=') == std::string::npos) return "";
+    return fmt::format("; is it a value? Write --set {}", file);
   }
   [[noreturn]] void fail(int error) const { fail(std::generic_category().message(error)); }
 

@@ -62,7 +62,7 @@ class Beat final : public Component {
   void throw_in(Parameters::ThrowsIn place) const {
     if (parameters_.throws_in != place) return;
     if (parameters_.throws_number) throw 42;
-    throw std::runtime_error{"out of breath"};
+    throw std::runtime_error{parameters_.throws_silently ? "" : "out of breath"};
   }
 
   void hang_in(Parameters::HangsIn place) const {

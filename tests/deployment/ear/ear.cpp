@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
@@ -67,7 +68,8 @@ class Ear final : public Component {
     summary.metric("oldest_young_s", "oldest young beat [s]", oldest_young_s_);
     summary.metric("orders", "commands", orders_);
     summary.metric("orders_again", "commands told again", orders_again_);
-    summary.metric("oldest_order_s", "oldest command [s]", oldest_order_s_);
+    summary.metric("oldest_order_s", "oldest command [s]",
+                   parameters_.reports_nan ? std::nan("") : oldest_order_s_);
     if (parameters_.undeclared) summary.metric("surprise_s", "surprise [s]", 1);
     std::string names;
     for (const std::string& name : told_of_) names += name + " ";

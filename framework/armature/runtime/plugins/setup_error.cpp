@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/plugins/setup_error.hpp"
 
+#include <cxxabi.h>
+#include <fmt/format.h>
+
+#include <cstdlib>
 #include <exception>
+#include <memory>
+#include <typeinfo>
 #include <vector>
 
 #include "armature/config/problems.hpp"
@@ -11,11 +17,25 @@ namespace armature {
 SetupError::~SetupError() = default;
 SlotError::~SlotError() = default;
 
+namespace {
+
+/// "std::runtime_error".
+std::string type_of(const std::exception& error) {
+  const char* name = typeid(error).name();
+  int status = 0;
+  const std::unique_ptr<char, decltype(&std::free)> readable{
+      abi::__cxa_demangle(name, nullptr, nullptr, &status), std::free};
+  return readable ? readable.get() : name;
+}
+
+}  // namespace
+
 std::string current_exception_text() {
   try {
     throw;
   } catch (const std::exception& error) {
-    return error.what();
+    const std::string text = error.what();
+    return text.empty() ? fmt::format("an exception without a text, {}", type_of(error)) : text;
   } catch (...) {
     return "an exception that is no std::exception";
   }

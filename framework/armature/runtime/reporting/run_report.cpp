@@ -32,14 +32,20 @@ RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
 void RunReport::expect_declared(const std::string& key) {
   const auto& declared = speaker_->manifest->measures;
   if (std::ranges::find(declared, key, &MetricSpec::name) != declared.end()) return;
-  defect_ = fmt::format(
+  defects_.push_back(fmt::format(
       "{}: plugin '{}' reports the metric '{}', which its plugin.yaml does not declare under "
       "'measures:'",
-      speaker_->name, speaker_->manifest->id, key);
+      speaker_->name, speaker_->manifest->id, key));
 }
 
 void RunReport::metric(std::string key, std::string title, double value) {
   expect_declared(key);
+  if (!std::isfinite(value)) {
+    defects_.push_back(fmt::format(
+        "{}: plugin '{}' reports the metric '{}', which is not finite; what was not measured is "
+        "told with its reason, by Summary::not_measured()",
+        speaker_->name, speaker_->manifest->id, key));
+  }
   figures_.push_back({std::move(key), std::move(title), value});
 }
 void RunReport::series(std::string key, std::string title, std::vector<double> values) {
@@ -74,12 +80,12 @@ void RunReport::judge_goal(const Goal& goal) {
     found = true;
     figure.goal = &goal;
     if (!figure.inapplicable.empty()) continue;
-    figure.met = *value <= goal.limit;  // false for NaN: nothing was measured
+    figure.met = *value <= goal.limit;  // false for NaN
     if (figure.met) continue;
     if (!figure.unmeasured.empty()) {
       reasons_.push_back(fmt::format("{} was not measured: {}", goal.metric, figure.unmeasured));
-    } else if (std::isnan(*value)) {
-      reasons_.push_back(fmt::format("{} was never measured", goal.metric));
+    } else if (!std::isfinite(*value)) {
+      reasons_.push_back(fmt::format("{} is not finite", goal.metric));
     } else {
       reasons_.push_back(
           fmt::format("{} is {:.3f}, the goal is at most {:g}", goal.metric, *value, goal.limit));
@@ -105,6 +111,11 @@ std::vector<std::string> faults_of_the_end(const Deployment& deployment) {
 
 void RunReport::judge(const Deployment& deployment, const Ending& ending) {
   for (const Goal& goal : deployment.config().goals) judge_goal(goal);
+  if (deployment.timed_out()) {
+    ended_by_ = fmt::format("the time limit of {:g} s is over", deployment.config().time_limit_s);
+  } else if (ending.stopped) {
+    ended_by_ = *ending.stopped;
+  }
   if (deployment.timed_out() && !deployment.config().goals.empty()) {
     reasons_.insert(reasons_.begin(),
                     fmt::format("the time limit of {:g} s was over before the end of the scenario",
@@ -121,7 +132,7 @@ void RunReport::judge(const Deployment& deployment, const Ending& ending) {
   }
   if (!story_status_.empty()) status_ = story_status_;
   std::vector<std::string> faults = ending.faults;
-  if (!defect_.empty()) faults.push_back(defect_);
+  std::ranges::copy(defects_, std::back_inserter(faults));
   if (std::string fault = deployment.fault(); !fault.empty()) faults.push_back(std::move(fault));
   std::ranges::move(deployment.isolated_faults(), std::back_inserter(faults));
   std::ranges::move(deployment.silent(), std::back_inserter(faults));
@@ -183,6 +194,7 @@ std::string to_json(const RunReport& report) {
   if (!inapplicable.empty()) json["does_not_apply"] = inapplicable;
   if (!report.reasons().empty()) json["reasons"] = report.reasons();
   if (!report.unwell().empty()) json["unwell"] = report.unwell();
+  if (!report.ended_by().empty()) json["ended_by"] = report.ended_by();
   if (report.timing()) json["timing"] = to_json(*report.timing());
   return json.dump();
 }
@@ -227,6 +239,7 @@ std::string to_table(const RunReport& report, const Mark& mark) {
   }
   table += fmt::format("  {:<{}}  {}\n", "status", width,
                        mark(report.status(), report.status() == "ok"));
+  if (!report.ended_by().empty()) table += fmt::format("    ended by: {}\n", report.ended_by());
   if (!report.story_reason().empty()) table += fmt::format("    {}\n", report.story_reason());
   for (const auto& reason : report.reasons()) table += fmt::format("    {}\n", reason);
   for (const auto& unwell : report.unwell()) table += fmt::format("    unwell: {}\n", unwell);

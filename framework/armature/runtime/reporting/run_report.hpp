@@ -54,6 +54,9 @@ class RunReport final : public Summary {
   const std::vector<std::string>& reasons() const { return reasons_; }
   /// Who was degraded or stalled when the run began to stop, and why, whatever its status.
   const std::vector<std::string>& unwell() const { return unwell_; }
+  /// What ended a run that no component said was over: "the time limit of 3 s is over",
+  /// "interrupted"; or "". Whether it had more to do is not known.
+  const std::string& ended_by() const { return ended_by_; }
   const std::vector<Figure>& figures() const { return figures_; }
   /// Nothing unless it was asked for: these figures differ from run to run, also in lockstep.
   const std::optional<RunTiming>& timing() const { return timing_; }
@@ -64,17 +67,17 @@ class RunReport final : public Summary {
   void judge(const Deployment& deployment, const Ending& ending);
 
   const ComponentConfig* speaker_ = nullptr;  // the component that is being asked
-  std::string defect_;                        // of a plugin that reports what it does not declare
+  std::vector<std::string> defects_;          // of plugins that report what they must not
   std::vector<Figure> figures_;
-  std::string story_status_, story_reason_;
+  std::string story_status_, story_reason_, ended_by_;
   std::string status_ = "ok";
   std::vector<std::string> reasons_, unwell_;
   std::optional<RunTiming> timing_;
 };
 
 /// One JSON object: `status` first, `reason` when that is not ok, figures in order, why any of them
-/// is null under `not_measured` or `does_not_apply`, `reasons`, and `unwell`; numbers as the
-/// shortest text that reads back the same.
+/// is null under `not_measured` or `does_not_apply`, `reasons`, `unwell`, and `ended_by`; numbers as
+/// the shortest text that reads back the same.
 std::string to_json(const RunReport& report);
 /// One JSON object with what the closing table says, so that a page can show it again: `status`,
 /// `reasons`, `figures` in order, each with `key`, `title`, `value`, and where there are such

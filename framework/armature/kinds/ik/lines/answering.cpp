@@ -8,7 +8,10 @@
 #include <exception>
 #include <initializer_list>
 #include <limits>
+#include <string>
+#include <vector>
 
+#include "armature/config/problems.hpp"
 #include "armature/kinds/ik/farthest.hpp"
 #include "armature/kinds/ik/lines/json_line.hpp"
 #include "armature/kinds/ik/lines/reason.hpp"
@@ -28,7 +31,8 @@ void expect_known(const Json& json, std::initializer_list<std::string_view> know
     if (key == "id" && (value.is_number() || value.is_string())) continue;
     if (key == "id") throw InvalidLine("'id' must be a number or a text");
     if (std::ranges::find(known, key) == known.end()) {
-      throw InvalidLine(fmt::format("unknown key '{}'", key));
+      const std::vector<std::string> names{known.begin(), known.end()};
+      throw InvalidLine(fmt::format("unknown key '{}'{}", key, config::did_you_mean(key, names)));
     }
   }
 }

@@ -230,6 +230,14 @@ TEST(IkLines, AnIdComesBackWhateverBecameOfTheQuestion) {
             "'id' must be a number or a text");
 }
 
+TEST(IkLines, AnUnknownKeyIsToldWithTheOneThatIsMeant) {
+  const auto reason = [](const std::string& line) {
+    return json::parse(answer_fk(lamp(), line))["reason"].get<std::string>();
+  };
+  EXPECT_EQ(reason(R"({"q":[0,0,0,0,0,0]})"), "unknown key 'q'; known: joints");
+  EXPECT_EQ(reason(R"({"joint":[0,0,0,0,0,0]})"), "unknown key 'joint'; did you mean 'joints'?");
+}
+
 TEST(IkLines, ACommentIsNamedAndAByteOrderMarkIsNoHarm) {
   const auto fk = [](const std::string& line) { return json::parse(answer_fk(lamp(), line)); };
   EXPECT_EQ(fk(" # all joints at home")["reason"], "a comment, which JSON lines do not have");

@@ -4,13 +4,13 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <iostream>
 #include <string>
 
 #include "armature/config/problems.hpp"
 #include "armature/runtime/plugins/exit_guard.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "colour.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 
@@ -19,8 +19,7 @@ namespace {
 /// What was printed and never arrived was not done: a full disk behind `>`.
 int printed(int code) {
   errno = 0;
-  std::cout.flush();
-  const bool lost = std::fflush(stdout) != 0 || std::ferror(stdout) != 0 || !std::cout;
+  const bool lost = std::fflush(standard_output()) != 0 || std::ferror(standard_output()) != 0;
   if (!lost) return code;
   std::fprintf(stderr, "armature: standard output cannot be written%s%s\n", errno ? ": " : "",
                errno ? std::strerror(errno) : "");
@@ -36,6 +35,7 @@ int exit_code_of(const std::exception& error) {
 }
 
 int exit_code_of(const std::function<int()>& action) {
+  keep_standard_output();
   const ExitGuard guard{
       [](const std::string& what) { std::fprintf(stderr, "armature: %s\n", what.c_str()); }};
   try {

@@ -66,6 +66,16 @@ TEST(IkCalculator, NamesTheSolverThatCrashes) {
       << result.err;
 }
 
+TEST(IkCalculator, AnswersAloneStandOnStandardOutputWhateverTheSolverPrints) {
+  const CommandResult result = run_command(
+      {armature(), "ik", "--robot", kLamp, "--plugin", "ik/faulty", "--params", "{fault: print}"},
+      {.environment = {{"ARMATURE_PLUGIN_PATH", ARMATURE_BINARY_DIR "/tests/plugins"}},
+       .input = kPaperGoal});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(json::accept(result.out)) << result.out;
+  EXPECT_NE(result.err.find("[solving\n"), std::string::npos) << result.err;
+}
+
 TEST(IkCalculator, AnswersEveryBadLineWithAReasonAndGoesOn) {
   const auto lines = ik(std::string{"this is not JSON\n"
                                     "[1,2,3]\n"

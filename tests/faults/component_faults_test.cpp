@@ -86,6 +86,15 @@ TEST_F(ComponentFaults, AMonitorThatThrowsInAnotherProcessIsToldByTheMainOne) {
   EXPECT_GT(told["last_note_s"], 0.5 * kTimeLimit_s);
 }
 
+TEST_F(ComponentFaults, WhatAMonitorPrintsOnStandardOutputIsNoPartOfTheResult) {
+  const CommandResult result = run({"components.monitor.params.breaks=prints"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_TRUE(json::accept(result.out)) << result.out;
+  for (const char* printed : {"[printed\n", "[streamed\n", "[echoed\n"}) {
+    EXPECT_THAT(result.err, HasSubstr(printed));
+  }
+}
+
 TEST_F(ComponentFaults, ASourceThatThrowsEndsTheRun) {
   const CommandResult result = run({"components.source.params.breaks=throws"});
   EXPECT_EQ(result.exit_code, 1);

@@ -6,6 +6,7 @@
 
 #include <cerrno>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -22,6 +23,7 @@
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 #include "progress.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -50,17 +52,18 @@ class LineInput {
 /// lines are skipped.
 int answer_lines(std::istream& in, const auto& answer) {
   std::optional<Progress> progress;
-  if (isatty(STDOUT_FILENO) == 0) progress.emplace("lines");  // else the answers show it
-  in.tie(&std::cout);
+  if (isatty(standard_output_descriptor()) == 0)
+    progress.emplace("lines");  // else the answers show it
   std::uint64_t answered = 0;
   for (std::string line; std::getline(in, line);) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    std::cout << answer(line) << '\n';
-    if (!std::cout) return kFailed;
+    const std::string text = answer(line) + '\n';
+    if (std::fputs(text.c_str(), standard_output()) < 0 || std::fflush(standard_output()) != 0) {
+      return kFailed;
+    }
     ++answered;
     if (progress) progress->count(answered);
   }
-  std::cout.flush();
   if (in.bad()) throw std::runtime_error("the input cannot be read to its end");
   if (answered == 0) fmt::print(stderr, "armature: the input has no lines to answer\n");
   return kOk;

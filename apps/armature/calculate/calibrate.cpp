@@ -25,6 +25,7 @@
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "readable_json.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -114,8 +115,8 @@ int deliver(const Json& json, const CalibrationOptions& options, const std::stri
     fmt::print(stderr, "{}: {} poses, {} mm rms remain\n", *file, json["poses"].get<int>(),
                json["residual"]["rms_mm"].get<double>());
   }
-  if (options.json) fmt::print("{}\n", readable(json));
-  if (!file && !options.json) fmt::print("{}", yaml);
+  if (options.json) print_out("{}\n", readable(json));
+  if (!file && !options.json) print_out("{}", yaml);
   return kOk;
 }
 

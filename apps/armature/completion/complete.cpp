@@ -9,6 +9,7 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "completion/assignment.hpp"
 #include "exit_code.hpp"
+#include "standard_output.hpp"
 #include "verbs/shipped_configs.hpp"
 
 namespace armature {
@@ -134,7 +135,7 @@ Candidates complete(const Verb& program, std::vector<std::string> words) {
 
 int print_candidates(const Verb& program, const std::vector<std::string>& words) {
   for (const auto& [text, description] : complete(program, words)) {
-    fmt::print("{}\t{}\n", text, description);
+    print_out("{}\t{}\n", text, description);
   }
   return kOk;
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "exit_code.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -80,7 +81,7 @@ std::string_view script_of(const std::string& shell) {
 }  // namespace
 
 int print_completion(const std::string& shell) {
-  fmt::print("{}", script_of(shell));
+  print_out("{}", script_of(shell));
   return kOk;
 }
 

@@ -11,6 +11,7 @@
 #include "doctor/gather.hpp"
 #include "doctor/judge.hpp"
 #include "exit_code.hpp"
+#include "standard_output.hpp"
 
 namespace armature::doctor {
 namespace {
@@ -31,7 +32,7 @@ void print_json(const std::vector<Finding>& findings) {
                                {"hint", finding.hint}});
   }
   // A file's name may be no UTF-8.
-  fmt::print("{}\n", json_text(all));
+  print_out("{}\n", json_text(all));
 }
 
 /// A reason may have several lines; a finding has one.
@@ -44,14 +45,14 @@ std::string level_text(Level level) {
   const Tone tone = level == Level::problem   ? Tone::bad
                     : level == Level::warning ? Tone::doubtful
                                               : Tone::good;
-  return coloured(fmt::format("{:<8}", to_string(level)), tone, stdout);
+  return coloured(fmt::format("{:<8}", to_string(level)), tone, standard_output());
 }
 
 void print_text(const std::vector<Finding>& findings) {
   for (const Finding& finding : findings) {
-    fmt::print("{} {:<22} {}; {}{}\n", level_text(finding.level), finding.what,
-               one_line(finding.value), finding.meaning,
-               finding.hint.empty() ? "" : "; try: " + finding.hint);
+    print_out("{} {:<22} {}; {}{}\n", level_text(finding.level), finding.what,
+              one_line(finding.value), finding.meaning,
+              finding.hint.empty() ? "" : "; try: " + finding.hint);
   }
 }
 

@@ -20,6 +20,7 @@
 #include "drill/trial.hpp"
 #include "exit_code.hpp"
 #include "run/end_signals.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace drill {
@@ -149,8 +150,8 @@ class Drill {
     longest_ = std::max(longest_, took);
     results_.push_back(result);
     if (options_->json) return;
-    fmt::print("{}\n", table_row(result));
-    std::fflush(stdout);
+    print_out("{}\n", table_row(result));
+    std::fflush(standard_output());
   }
 
   static constexpr std::chrono::seconds kBrief{30};
@@ -176,14 +177,14 @@ int run_drill(const DrillOptions& options) {
   const PluginRegistry plugins;
   const drill::DrilledDeployment deployment = drill::read_drilled(options.source, plugins);
   const std::uint64_t seed = options.seed.value_or(std::random_device{}());
-  if (!options.json) fmt::print("{}: --seed {}\n{}\n", deployment.name, seed, drill::table_head());
-  std::fflush(stdout);
+  if (!options.json) print_out("{}: --seed {}\n{}\n", deployment.name, seed, drill::table_head());
+  std::fflush(standard_output());
   drill::Drill drill{options, deployment, drill::plan(deployment, options, seed)};
   end_signals::say({.json = options.json});
   end_signals::stop_in_order();
   const auto results = drill.run();
-  fmt::print("{}\n", options.json ? to_json(deployment.name, seed, results, drill.stopped())
-                                  : counts(results));
+  print_out("{}\n", options.json ? to_json(deployment.name, seed, results, drill.stopped())
+                                 : counts(results));
   if (drill.stopped()) return kFailed;
   return std::ranges::none_of(results, &drill::TrialResult::failed) ? kOk : kFailed;
 }

@@ -22,6 +22,7 @@
 #include "exit_code.hpp"
 #include "inspect/origin_json.hpp"
 #include "inspect/plugins.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -155,14 +156,14 @@ Json findings_json(const Findings& findings, Json problems) {
 }
 
 void print_json(const Findings& findings, Json problems) {
-  fmt::print("{}\n", json_text(findings_json(findings, std::move(problems))));
+  print_out("{}\n", json_text(findings_json(findings, std::move(problems))));
 }
 
 int check_as_json(const DeploymentSource& source) {
   Findings findings;
   const ExitGuard guard{[&](const std::string& what) {
     print_json(findings, Json::array({Json{{"text", what}}}));
-    std::fflush(stdout);
+    std::fflush(standard_output());
   }};
   Json problems = Json::array();
   int code = kOk;
@@ -187,15 +188,15 @@ int check_deployment(const DeploymentSource& source, bool json) {
   Findings findings;
   DeploymentConfig config = read_for_check(source, plugins, findings);
   for (const auto& [component, plugin] : findings.not_tried) {
-    fmt::print("not tried: component '{}', as {} runs a program\n", component, plugin);
+    print_out("not tried: component '{}', as {} runs a program\n", component, plugin);
   }
   construct(std::move(config), plugins, findings);
   for (const std::string& warning : findings.warnings) {
     fmt::print(stderr, "warning: {}\n", warning);
   }
-  fmt::print("{}: ok, {} components, {} topics\n", findings.deployment, findings.components,
-             findings.topics);
-  for (const auto& [component, text] : findings.notes) fmt::print("{}: {}\n", component, text);
+  print_out("{}: ok, {} components, {} topics\n", findings.deployment, findings.components,
+            findings.topics);
+  for (const auto& [component, text] : findings.notes) print_out("{}: {}\n", component, text);
   return kOk;
 }
 

@@ -18,6 +18,7 @@
 #include "inspect/leases.hpp"
 #include "inspect/origin_json.hpp"
 #include "run/named_deployment.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -53,9 +54,9 @@ std::string on_fault_comment(const DeploymentConfig& deployment) {
 
 void print_tree(const config::Node& tree, bool json) {
   if (json) {
-    fmt::print("{}\n", json_text(with_origins(tree)));
+    print_out("{}\n", json_text(with_origins(tree)));
   } else {
-    fmt::print("{}", config::to_yaml(tree, true));
+    print_out("{}", config::to_yaml(tree, true));
   }
 }
 
@@ -72,14 +73,14 @@ int show_deployment(const DeploymentSource& source, bool json) {
   if (json) return kOk;
   const DeploymentConfig deployment = read_deployment(root, plugins, problems);
   if (problems.empty()) {
-    fmt::print("{}{}", on_fault_comment(deployment), leases_comment(deployment));
+    print_out("{}{}", on_fault_comment(deployment), leases_comment(deployment));
   }
   return kOk;
 }
 
 int graph_deployment(const DeploymentSource& source, GraphFormat format) {
   const PluginRegistry plugins;
-  fmt::print("{}", drawing_of(graph_of(read_named(source, plugins)), format));
+  print_out("{}", drawing_of(graph_of(read_named(source, plugins)), format));
   return kOk;
 }
 

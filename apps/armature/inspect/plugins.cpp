@@ -8,6 +8,7 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -123,21 +124,21 @@ std::string default_text(const ParamSpec& spec) {
 }
 
 void print_slots(const std::vector<SlotSpec>& slots) {
-  if (!slots.empty()) fmt::print("slots:\n");
+  if (!slots.empty()) print_out("slots:\n");
   for (const SlotSpec& slot : slots) {
     const std::string otherwise = slot.optional ? " (may be empty)"
                                   : slot.otherwise.empty()
                                       ? ""
                                       : fmt::format(" (default {})", slot.otherwise);
-    fmt::print("  {:<16} {:<12} {}{}\n", slot.name, slot.kind, slot.doc, otherwise);
+    print_out("  {:<16} {:<12} {}{}\n", slot.name, slot.kind, slot.doc, otherwise);
   }
 }
 
 void print_params(const std::vector<ParamSpec>& specs) {
-  if (!specs.empty()) fmt::print("params:\n");
+  if (!specs.empty()) print_out("params:\n");
   for (const auto& spec : specs) {
-    fmt::print("  {:<26} {:<8} {:<12} {}{}\n", spec.name, to_string(spec.type), default_text(spec),
-               spec.doc, range_text(spec));
+    print_out("  {:<26} {:<8} {:<12} {}{}\n", spec.name, to_string(spec.type), default_text(spec),
+              spec.doc, range_text(spec));
   }
 }
 
@@ -152,21 +153,21 @@ std::string lease_text(const PortSpec& port) {
 
 void print_ports(const char* title, const std::vector<PortSpec>& ports) {
   if (ports.empty()) return;
-  fmt::print("{}:\n", title);
+  print_out("{}:\n", title);
   for (const auto& port : ports) {
-    fmt::print("  {:<16} {:<28} {:<24} {}{}\n", port.name, port.type, port.topic, port.doc,
-               lease_text(port));
+    print_out("  {:<16} {:<28} {:<24} {}{}\n", port.name, port.type, port.topic, port.doc,
+              lease_text(port));
   }
 }
 
 void print_capabilities(const char* title, const std::vector<Capability>& capabilities,
                         const std::vector<ParamSpec>& params) {
   if (capabilities.empty()) return;
-  fmt::print("{}:\n", title);
+  print_out("{}:\n", title);
   for (const auto& capability : capabilities) {
     const std::string unless = unless_text(capability, params);
-    fmt::print("  {:<26} {}{}\n", capability.word, capability.doc,
-               unless.empty() ? "" : fmt::format(" ({})", unless));
+    print_out("  {:<26} {}{}\n", capability.word, capability.doc,
+              unless.empty() ? "" : fmt::format(" ({})", unless));
   }
 }
 
@@ -187,11 +188,11 @@ int list_plugins(bool json) {
     for (const auto& [file, reason] : plugins.unusable()) {
       all["unusable"].push_back({{"file", file.string()}, {"reason", reason}});
     }
-    fmt::print("{}\n", json_text(all));
+    print_out("{}\n", json_text(all));
     return kOk;
   }
   for (const auto& plugin : plugins.plugins()) {
-    fmt::print("{:<28} {:<11} {}\n", plugin.id, plugin.kind, plugin.doc);
+    print_out("{:<28} {:<11} {}\n", plugin.id, plugin.kind, plugin.doc);
   }
   for (const auto& [file, reason] : plugins.unusable()) {
     fmt::print(stderr, "armature: {} cannot be used: {}\n", file.string(), reason);
@@ -209,25 +210,25 @@ int show_plugin(const std::string& id, bool json) {
   if (json) {
     Json told = manifest_json(*plugin);
     if (host) told["alone"] = host_json(*host);
-    fmt::print("{}\n", json_text(told));
+    print_out("{}\n", json_text(told));
     return kOk;
   }
-  fmt::print("{} ({})\n  {}\n  {}\n", plugin->id, plugin->kind, plugin->doc, plugin->file.string());
-  if (!plugin->pure) fmt::print("  not pure: only on the system clock\n");
-  if (plugin->runs_programs) fmt::print("  runs a program that its parameters name\n");
+  print_out("{} ({})\n  {}\n  {}\n", plugin->id, plugin->kind, plugin->doc, plugin->file.string());
+  if (!plugin->pure) print_out("  not pure: only on the system clock\n");
+  if (plugin->runs_programs) print_out("  runs a program that its parameters name\n");
   print_params(plugin->params);
   print_slots(plugin->slots);
   print_capabilities("requires", plugin->required, plugin->params);
   print_capabilities("provides", plugin->provided, plugin->params);
-  if (!plugin->measures.empty()) fmt::print("measures:\n");
+  if (!plugin->measures.empty()) print_out("measures:\n");
   for (const auto& metric : plugin->measures) {
-    fmt::print("  {:<26} {}{}\n", metric.name, metric.doc,
-               metric.may_be_negative ? " (may be below 0)" : "");
+    print_out("  {:<26} {}{}\n", metric.name, metric.doc,
+              metric.may_be_negative ? " (may be below 0)" : "");
   }
   print_ports("in", plugin->inputs);
   print_ports("out", plugin->outputs);
   if (!host) return kOk;
-  fmt::print("alone, directly under components:, it also has\n");
+  print_out("alone, directly under components:, it also has\n");
   print_params(host->params);
   print_slots({host->slots.begin() + 1, host->slots.end()});  // the first one is its own
   print_ports("in", host->inputs);

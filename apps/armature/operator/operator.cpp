@@ -26,6 +26,7 @@
 #include "operator/procedure_view.hpp"
 #include "operator/shown_question.hpp"
 #include "operator/task_link.hpp"
+#include "standard_output.hpp"
 #include "terminal_text.hpp"
 
 namespace armature {
@@ -131,18 +132,19 @@ class Dialogue {
     if (summary == shown_) return;
     shown_ = summary;
     question_.show(step_that_asks(*state), Steady::now());
-    fmt::print("{}\n", options_.json ? json_text(json_of(*state)) : table_of(*state));
+    print_out("{}
+", options_.json ? json_text(json_of(*state)) : table_of(*state));
     if (const std::string asks = step_that_asks(*state); !asks.empty() && !options_.json) {
-      fmt::print("c(onfirm) '{}', p(ause), b(ack), a(bort)?\n", terminal_text(asks));
+      print_out("c(onfirm) '{}', p(ause), b(ack), a(bort)?\n", terminal_text(asks));
     }
-    std::fflush(stdout);
+    std::fflush(standard_output());
   }
 
   /// Shows every change, and says what is typed, until the end of input.
   int listen() {
     if (!options_.json) {
-      fmt::print("a word or its letter, and Enter: {}; q leaves, and changes nothing\n",
-                 fmt::join(kOperatorWords, ", "));
+      print_out("a word or its letter, and Enter: {}; q leaves, and changes nothing\n",
+                fmt::join(kOperatorWords, ", "));
     }
     std::string line;
     for (bool told = false; !g_left;) {

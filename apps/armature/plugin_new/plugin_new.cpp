@@ -21,6 +21,7 @@
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 #include "plugin_new/family.hpp"
+#include "standard_output.hpp"
 #include "verbs/shipped_configs.hpp"
 
 namespace armature {
@@ -171,7 +172,7 @@ int new_plugin(const std::string& text, const fs::path& directory) {
     write(common / "arm.yaml");
     write(shipped_config_folder() / "robots" / "arm.urdf");
   }
-  fmt::print("wrote {}: see {}\n", id.text, (directory / "README.md").string());
+  print_out("wrote {}: see {}\n", id.text, (directory / "README.md").string());
   return kOk;
 }
 

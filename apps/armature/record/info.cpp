@@ -14,6 +14,7 @@
 #include "exit_code.hpp"
 #include "record/record.hpp"
 #include "record/recorded_processes.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -160,33 +161,33 @@ Json json_of(const Contents& contents, const std::vector<std::string>& problems)
 }
 
 void print(const Contents& contents) {
-  fmt::print("{:.3f} s by {}, {} in {} chunks, {} unpacked\n", to_seconds(contents.length),
-             shown(contents.library), megabytes(contents.packed_bytes), contents.chunks,
-             megabytes(contents.unpacked_bytes));
+  print_out("{:.3f} s by {}, {} in {} chunks, {} unpacked\n", to_seconds(contents.length),
+            shown(contents.library), megabytes(contents.packed_bytes), contents.chunks,
+            megabytes(contents.unpacked_bytes));
   std::size_t width = 0;
   for (const auto& [name, topic] : contents.topics) width = std::max(width, name.size());
   for (const auto& [name, topic] : contents.topics) {
-    fmt::print("  {:<{}}  {:<40} {:>9} messages {:>9.1f} Hz", shown(name), width, shown(topic.type),
-               topic.messages, topic.hz);
-    fmt::print("{}\n", topic.bytes ? fmt::format(" {:>14}", megabytes(*topic.bytes)) : "");
+    print_out("  {:<{}}  {:<40} {:>9} messages {:>9.1f} Hz", shown(name), width, shown(topic.type),
+              topic.messages, topic.hz);
+    print_out("{}\n", topic.bytes ? fmt::format(" {:>14}", megabytes(*topic.bytes)) : "");
   }
   if (const std::uint64_t doubled = doubled_in(contents)) {
-    fmt::print("  {} more messages were recorded a second time, by a process that read them\n",
-               doubled);
+    print_out("  {} more messages were recorded a second time, by a process that read them\n",
+              doubled);
   }
   for (const auto& [name, bytes] : contents.attachments) {
-    fmt::print("  attached: {}, {} bytes\n", shown(name), bytes);
+    print_out("  attached: {}, {} bytes\n", shown(name), bytes);
   }
   for (const McapMetadata& metadata : contents.metadata) {
-    fmt::print("  {}:", shown(metadata.name));
+    print_out("  {}:", shown(metadata.name));
     for (const auto& [key, value] : metadata.values) {
-      fmt::print(" {}={}", shown(key), shown(value));
+      print_out(" {}={}", shown(key), shown(value));
     }
-    fmt::print("\n");
+    print_out("\n");
   }
   if (contents.links > 0) {
-    fmt::print("  {} links, the last is {}: --verify holds the file to them\n", contents.links,
-               contents.head);
+    print_out("  {} links, the last is {}: --verify holds the file to them\n", contents.links,
+              contents.head);
   }
 }
 
@@ -269,7 +270,7 @@ int describe_recording(const InfoOptions& options) {
     if (const auto summary = read_summary(options.file)) {
       const Contents contents = contents_of(*summary);
       if (options.json) {
-        fmt::print("{}\n", text_of(json_of(contents, {})));
+        print_out("{}\n", text_of(json_of(contents, {})));
       } else {
         print(contents);
       }
@@ -284,11 +285,11 @@ int describe_recording(const InfoOptions& options) {
     Json json = json_of(contents, reader.problems());
     if (options.verify) json["chain"] = json_of(chain);
     if (!options.head.empty()) json["chain"]["is_head"] = is_head;
-    fmt::print("{}\n", text_of(json));
+    print_out("{}\n", text_of(json));
   } else {
     print(contents);
   }
-  std::fflush(stdout);  // a reader of both has this before what is wrong
+  std::fflush(standard_output());  // a reader of both has this before what is wrong
   if (!reader.problems().empty()) tell_problems(options.file, reader.problems());
   if (!options.verify) return reader.problems().empty() ? kOk : kFailed;
   const bool is_whole = chain.verdict == McapChain::Verdict::whole && reader.problems().empty();
@@ -296,7 +297,7 @@ int describe_recording(const InfoOptions& options) {
   if (!is_whole) {
     fmt::print(stderr, "armature: '{}': {}\n", options.file.string(), told);
   } else if (!options.json) {
-    fmt::print("{}\n", told);
+    print_out("{}\n", told);
   }
   if (!is_head) {
     fmt::print(stderr, "armature: '{}': its last hash is not {}: it is another file\n",

@@ -18,6 +18,7 @@
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
 #include "record/recorded_processes.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -169,9 +170,9 @@ int merge_recordings(const std::vector<std::filesystem::path>& parts,
   for (const std::string& problem : joined.problems) {
     fmt::print(stderr, "armature: {}\n", problem);
   }
-  fmt::print("{}: {} messages of {} processes, {}\n", out.string(), joined.messages,
-             joined.processes, megabytes(joined.bytes));
-  fmt::print("last hash {}\n", joined.head);
+  print_out("{}: {} messages of {} processes, {}\n", out.string(), joined.messages,
+            joined.processes, megabytes(joined.bytes));
+  print_out("last hash {}\n", joined.head);
   return kOk;
 }
 

@@ -15,6 +15,7 @@
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "record/recorder.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -124,17 +125,17 @@ int record_topics(const RecordOptions& options) {
     std::uint64_t dropped = 0, lost = 0;
     for (const auto& [topic, count] : recorder.dropped()) dropped += count;
     for (const auto& [topic, count] : recorder.lost()) lost += count;
-    fmt::print("{}\n", json_text(Json{{"file", options.out.string()},
-                                      {"topics", recorder.topics()},
-                                      {"messages", recorder.messages()},
-                                      {"bytes", recorder.bytes()},
-                                      {"dropped", dropped},
-                                      {"lost", lost},
-                                      {"head", recorder.head()}}));
+    print_out("{}\n", json_text(Json{{"file", options.out.string()},
+                                     {"topics", recorder.topics()},
+                                     {"messages", recorder.messages()},
+                                     {"bytes", recorder.bytes()},
+                                     {"dropped", dropped},
+                                     {"lost", lost},
+                                     {"head", recorder.head()}}));
   } else {
-    fmt::print("{}: {} messages of {} topics, {}\n", options.out.string(), recorder.messages(),
-               recorder.topics(), megabytes(recorder.bytes()));
-    fmt::print("last hash {}\n", recorder.head());
+    print_out("{}: {} messages of {} topics, {}\n", options.out.string(), recorder.messages(),
+              recorder.topics(), megabytes(recorder.bytes()));
+    print_out("last hash {}\n", recorder.head());
   }
   if (recorder.messages() > 0) return kOk;
   fmt::print(stderr, "armature: nothing came to be recorded\n");

@@ -9,6 +9,7 @@
 #include "exit_code.hpp"
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -45,8 +46,8 @@ int repair_recording(const std::filesystem::path& cut, const std::filesystem::pa
   for (const std::string& problem : reader.problems()) {
     fmt::print(stderr, "armature: '{}': {}\n", cut.string(), problem);
   }
-  fmt::print("{}: {} messages{}\n", whole.string(), writer.messages(),
-             reader.problems().empty() ? ", all of a file that was whole" : "");
+  print_out("{}: {} messages{}\n", whole.string(), writer.messages(),
+            reader.problems().empty() ? ", all of a file that was whole" : "");
   return kOk;
 }
 

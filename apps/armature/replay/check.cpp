@@ -21,6 +21,7 @@
 #include "replay/recorded_run.hpp"
 #include "replay/replay.hpp"
 #include "replay/replayed_process.hpp"
+#include "standard_output.hpp"
 #include "watch/outsider.hpp"
 
 namespace armature {
@@ -273,18 +274,18 @@ void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals&
       json["components"].push_back(json_of(*check, name, entry));
     }
   }
-  fmt::print("{}\n", json_text(json));
+  print_out("{}\n", json_text(json));
 }
 
 void print(const ExchangedSamples& exchanged) {
   if (exchanged.compared > 0) {
-    fmt::print(
+    print_out(
         "{} samples that processes read of each other are as they were written, {} of them "
         "found by their writer's number\n",
         with_commas(exchanged.compared), with_commas(exchanged.numbered));
   }
   if (!exchanged.first) return;
-  fmt::print(
+  print_out(
       "{} are not: process '{}' read a sample of {} first at {:.6f} s that is not in the "
       "recording of its writer\n",
       with_commas(exchanged.unwritten), exchanged.first->reader, exchanged.first->topic,
@@ -295,23 +296,23 @@ void print(const std::vector<std::unique_ptr<Check>>& checks, const Totals& tota
   for (const auto& check : checks) {
     for (const auto& [name, entry] : check->entries()) {
       const auto& difference = check->of(name).difference;
-      if (difference) fmt::print("{}\n", text_of(name, *difference));
+      if (difference) print_out("{}\n", text_of(name, *difference));
     }
   }
-  fmt::print("{}: {} outputs of {} activations of {} components; {:.1f} s of the run in {:.1f} s\n",
-             verdict_of(totals), with_commas(totals.outputs), with_commas(totals.activations),
-             totals.components, totals.length_s, took_s);
+  print_out("{}: {} outputs of {} activations of {} components; {:.1f} s of the run in {:.1f} s\n",
+            verdict_of(totals), with_commas(totals.outputs), with_commas(totals.activations),
+            totals.components, totals.length_s, took_s);
   print(totals.exchanged);
   for (const auto& check : checks) {
     for (const auto& [name, entry] : check->entries()) {
-      if (!entry.component) fmt::print("not replayed: '{}', {}\n", name, entry.why_not);
+      if (!entry.component) print_out("not replayed: '{}', {}\n", name, entry.why_not);
       if (entry.ends) {
-        fmt::print("replayed up to its activation {}: '{}', {}\n", with_commas(entry.activations),
-                   name, *entry.ends);
+        print_out("replayed up to its activation {}: '{}', {}\n", with_commas(entry.activations),
+                  name, *entry.ends);
       }
       if (const auto unrecorded = check->of(name).unrecorded; unrecorded > 0) {
-        fmt::print("not compared: {} outputs of '{}', which are not in the recording\n",
-                   with_commas(unrecorded), name);
+        print_out("not compared: {} outputs of '{}', which are not in the recording\n",
+                  with_commas(unrecorded), name);
       }
     }
   }

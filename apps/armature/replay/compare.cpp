@@ -20,6 +20,7 @@
 #include "replay/replay.hpp"
 #include "replay/replayed_process.hpp"
 #include "replay/watched_ik.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -218,43 +219,41 @@ bool is_same(const TopicDifferences& differences) {
 }
 
 void print_fields(const std::string& topic, const TopicDifferences& differences) {
-  fmt::print("  {}: {} of {} messages differ\n", topic, differences.differing(),
-             differences.messages());
+  print_out("  {}: {} of {} messages differ\n", topic, differences.differing(),
+            differences.messages());
   if (differences.only_before() + differences.only_now() > 0) {
-    fmt::print("    {} messages only in the recording, {} only now\n", differences.only_before(),
-               differences.only_now());
+    print_out("    {} messages only in the recording, {} only now\n", differences.only_before(),
+              differences.only_now());
   }
   for (const auto& [name, field] : differences.fields()) {
     const std::string what = field.is_number
                                  ? fmt::format("by up to {:.3g}", field.largest)
                                  : fmt::format("first {} now {}", field.before, field.now);
-    fmt::print("    {:<28} {:>6} of them, {} at {:.3f} s\n", name, field.messages, what,
-               field.at_s);
+    print_out("    {:<28} {:>6} of them, {} at {:.3f} s\n", name, field.messages, what, field.at_s);
   }
   const auto& steps = differences.joint_steps();
   if (steps[0] + steps[1] > 0) {
-    fmt::print("    largest step of a joint      recorded {:.6g}, now {:.6g}\n", steps[0],
-               steps[1]);
+    print_out("    largest step of a joint      recorded {:.6g}, now {:.6g}\n", steps[0], steps[1]);
   }
 }
 
 void print_solver(const Side::Solver& before, const Side::Solver& now) {
-  fmt::print("inverse kinematics of '{}': {} calls of {}, {} failed; {} of {}, {} failed\n",
-             now.component, before.calls.count, before.plugin, before.calls.failed, now.calls.count,
-             now.plugin, now.calls.failed);
+  print_out("inverse kinematics of '{}': {} calls of {}, {} failed; {} of {}, {} failed\n",
+            now.component, before.calls.count, before.plugin, before.calls.failed, now.calls.count,
+            now.plugin, now.calls.failed);
   if (now.calls.count > 0 && before.calls.count > 0) {
     const double mean = now.calls.took_s / static_cast<double>(now.calls.count);
     const double mean_before = before.calls.took_s / static_cast<double>(before.calls.count);
-    fmt::print("  a call takes {:.2f} times as long: {:.2f} us instead of {:.2f} us\n",
-               mean / mean_before, 1e6 * mean, 1e6 * mean_before);
+    print_out("  a call takes {:.2f} times as long: {:.2f} us instead of {:.2f} us\n",
+              mean / mean_before, 1e6 * mean, 1e6 * mean_before);
   }
   if (now.calls.first_failed) {
-    fmt::print("  first failure, {}:\n  {}\n", now.calls.first_failed->answer,
-               line_for(*now.calls.first_failed, now));
+    print_out("  first failure, {}:\n  {}\n", now.calls.first_failed->answer,
+              line_for(*now.calls.first_failed, now));
   }
   if (now.calls.slowest) {
-    fmt::print("  slowest call, {:.2f} us, {}:\n  {}\n", 1e6 * now.calls.slowest->took_s,
-               now.calls.slowest->answer, line_for(*now.calls.slowest, now));
+    print_out("  slowest call, {:.2f} us, {}:\n  {}\n", 1e6 * now.calls.slowest->took_s,
+              now.calls.slowest->answer, line_for(*now.calls.slowest, now));
   }
 }
 
@@ -262,7 +261,7 @@ void print(const Comparison& comparison) {
   for (const auto& [name, compared] : comparison.components()) {
     const TimingFigures before = times_of(comparison.before(), name);
     const TimingFigures now = times_of(comparison.now(), name);
-    fmt::print(
+    print_out(
         "'{}', {} activations: a step takes {:.2f} times as long (p50 {:.2f} us instead of "
         "{:.2f}, p99 {:.2f} us instead of {:.2f}), the slowest {:.2f} us at {:.3f} s\n",
         name, now.count, now.p50_s / before.p50_s, 1e6 * now.p50_s, 1e6 * before.p50_s,
@@ -275,7 +274,7 @@ void print(const Comparison& comparison) {
         print_fields(topic, differences);
       }
     }
-    if (!same.empty()) fmt::print("  the same to the last bit: {}\n", same);
+    if (!same.empty()) print_out("  the same to the last bit: {}\n", same);
   }
   const auto& before = comparison.before().solvers;
   const auto& now = comparison.now().solvers;
@@ -283,10 +282,10 @@ void print(const Comparison& comparison) {
     print_solver(before[i], now[i]);
   }
   for (const auto& [name, entry] : comparison.now().process.entries()) {
-    if (!entry.component) fmt::print("not replayed: '{}', {}\n", name, entry.why_not);
+    if (!entry.component) print_out("not replayed: '{}', {}\n", name, entry.why_not);
     if (entry.ends) {
-      fmt::print("replayed up to its activation {}: '{}', {}\n", entry.activations, name,
-                 *entry.ends);
+      print_out("replayed up to its activation {}: '{}', {}\n", entry.activations, name,
+                *entry.ends);
     }
   }
 }
@@ -374,7 +373,7 @@ int compare_with_recording(const ReplayOptions& options) {
     }
   }
   if (!any) throw InvalidChoice("the assignments change no component of the recording");
-  if (options.json) fmt::print("{}\n", json_text(json));
+  if (options.json) print_out("{}\n", json_text(json));
   return kOk;
 }
 

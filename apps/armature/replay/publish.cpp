@@ -24,6 +24,7 @@
 #include "exit_code.hpp"
 #include "record/recorded_processes.hpp"
 #include "replay/recorded_qos.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -169,12 +170,12 @@ int publish_recording(const PublishOptions& options) {
     fmt::print(stderr, "armature: '{}' has no messages to be published\n", options.file.string());
   }
   if (options.json) {
-    fmt::print("{}\n", json_text(nlohmann::ordered_json{{"messages", player.messages()},
-                                                        {"topics", player.topics()},
-                                                        {"prefix", options.prefix}}));
+    print_out("{}\n", json_text(nlohmann::ordered_json{{"messages", player.messages()},
+                                                       {"topics", player.topics()},
+                                                       {"prefix", options.prefix}}));
   } else {
-    fmt::print("{} messages of {} topics under {}\n", player.messages(), player.topics(),
-               options.prefix);
+    print_out("{} messages of {} topics under {}\n", player.messages(), player.topics(),
+              options.prefix);
   }
   return player.messages() > 0 ? kOk : kFailed;
 }

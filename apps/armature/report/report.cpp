@@ -37,6 +37,7 @@
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
 #include "record/recorded_processes.hpp"
+#include "standard_output.hpp"
 #include "verbs/shipped_configs.hpp"
 
 namespace armature {
@@ -360,7 +361,7 @@ WrittenReport write_report(const ReportOptions& options) {
 int print_report(const ReportOptions& options) {
   const WrittenReport written = write_report(options);
   for (const std::string& note : written.notes) fmt::print(stderr, "armature: {}\n", note);
-  fmt::print("{}\n", written.text);
+  print_out("{}\n", written.text);
   return kOk;
 }
 

@@ -11,6 +11,7 @@
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "colour.hpp"
 #include "csv_field.hpp"
+#include "standard_output.hpp"
 
 namespace armature::reproduce {
 namespace {
@@ -29,7 +30,7 @@ std::string bound_text(const DeclaredRow& row) {
 }
 
 std::string remark_of(const JudgedRow& row) {
-  if (!row.fault.empty()) return coloured("FAILS: " + row.fault, Tone::bad, stdout);
+  if (!row.fault.empty()) return coloured("FAILS: " + row.fault, Tone::bad, standard_output());
   if (!row.declared.misprint.empty()) return "misprint: " + row.declared.misprint;
   const std::string bound = bound_text(row.declared);
   if (row.declared.differs.empty()) return bound;
@@ -109,7 +110,7 @@ std::string to_text(const Declaration& declaration, const Judgement& judgement) 
   std::string text = declaration.paper + "\n\n";
   for (const JudgedTable& table : judgement.tables) text += table_text(table) + '\n';
   for (const std::string& fault : judgement.faults) {
-    text += coloured("FAILS: " + fault, Tone::bad, stdout) + '\n';
+    text += coloured("FAILS: " + fault, Tone::bad, standard_output()) + '\n';
   }
   const int failed_rows = judgement.failed() - static_cast<int>(judgement.faults.size());
   return text + fmt::format("{} rows: {} hold, {} fail; {} misprints named, {} differ\n",

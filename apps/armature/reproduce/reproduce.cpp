@@ -15,6 +15,7 @@
 #include "readable_json.hpp"
 #include "reproduce/papers.hpp"
 #include "reproduce/report.hpp"
+#include "standard_output.hpp"
 #include "verbs/shipped_configs.hpp"
 
 namespace armature {
@@ -42,13 +43,13 @@ int reproduce_paper(const ReproduceOptions& options) {
   paper.compute(reproduce::Numbers{declaration.numbers}, !options.is_short, results);
   const reproduce::Judgement judgement = reproduce::judge(declaration, results, !options.is_short);
   if (options.json) {
-    fmt::print("{}\n", readable(reproduce::to_json(declaration, judgement)));
+    print_out("{}\n", readable(reproduce::to_json(declaration, judgement)));
   } else {
-    fmt::print("{}", reproduce::to_text(declaration, judgement));
+    print_out("{}", reproduce::to_text(declaration, judgement));
   }
   if (options.out) {
     const auto files = reproduce::write_files(*options.out, declaration, judgement, results);
-    if (!options.json) fmt::print("{} files in {}\n", files.size(), options.out->string());
+    if (!options.json) print_out("{} files in {}\n", files.size(), options.out->string());
   }
   return judgement.failed() == 0 ? kOk : kFailed;
 }

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 
+#include "standard_output.hpp"
 #include "terminal_text.hpp"
 
 namespace armature {
@@ -48,7 +49,7 @@ void Console::tell(std::string_view text) { lines_.put(fmt::format("armature: {}
 
 std::optional<std::string> Console::lost_reader() const {
   if (lines_.closed() || is_reader_gone(STDERR_FILENO)) return "nobody reads standard error";
-  if (is_reader_gone(STDOUT_FILENO)) return "nobody reads standard output";
+  if (is_reader_gone(standard_output_descriptor())) return "nobody reads standard output";
   return std::nullopt;
 }
 

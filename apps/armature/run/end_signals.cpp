@@ -15,6 +15,7 @@
 
 #include "armature/values/inline_text.hpp"
 #include "exit_code.hpp"
+#include "standard_output.hpp"
 
 namespace armature::end_signals {
 namespace {
@@ -67,7 +68,7 @@ Text text_of(int signal) {
 
 /// In a signal handler, which may open and write, and little else.
 [[noreturn]] void leave(std::string_view json, std::string_view line) {
-  if (g_json && !g_result_told) write_out(STDOUT_FILENO, json);
+  if (g_json && !g_result_told) write_out(standard_output_descriptor(), json);
   if (g_reports && !g_result_told) {
     const int report =
         ::open(g_report_file.c_str(),

@@ -39,6 +39,7 @@
 #include "run/run_recording.hpp"
 #include "run/run_watches.hpp"
 #include "run/watched_end.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -84,10 +85,11 @@ bool report_written(const RunReport& report, const Deployment& deployment,
 /// full.
 bool result_printed(const RunOptions& options, const RunReport& report, Console& console) {
   const auto mark = [](std::string_view word, bool good) {
-    return coloured(word, good ? Tone::good : Tone::bad, stdout);
+    return coloured(word, good ? Tone::good : Tone::bad, standard_output());
   };
   const std::string text = options.json ? to_json(report) + "\n" : to_table(report, mark);
-  const bool printed = std::fputs(text.c_str(), stdout) >= 0 && std::fflush(stdout) == 0;
+  const bool printed =
+      std::fputs(text.c_str(), standard_output()) >= 0 && std::fflush(standard_output()) == 0;
   if (!printed) {
     console.tell(
         fmt::format("the result was not printed: {}", std::generic_category().message(errno)));
@@ -136,7 +138,7 @@ int conclude_child(const RunOptions& options, const Deployment& deployment, Chil
   const std::string fault = fault_of(deployment, watch);
   watch.tell_fault(fault);
   if (options.timing) watch.tell_timing(timing_of(deployment));
-  if (options.json) fmt::print("{}", ending(fault.empty() ? "ok" : "fault", fault));
+  if (options.json) print_out("{}", ending(fault.empty() ? "ok" : "fault", fault));
   end.result_told();
   return fault.empty() ? kOk : kFailed;
 }
@@ -145,7 +147,7 @@ int conclude_child(const RunOptions& options, const Deployment& deployment, Chil
 /// survive its own end because the system clock was stepped. Everything else has been closed.
 void leave_if_necessary(const Deployment& deployment, const ProcessWatch& watch, int code) {
   if (deployment.hung().empty() && !watch.clock_was_stepped()) return;
-  if (std::fflush(stdout) != 0) code = kFailed;
+  if (std::fflush(standard_output()) != 0) code = kFailed;
   _exit(code);
 }
 
@@ -271,7 +273,7 @@ int run(RunOptions options) {
   check_name(config, "host", options.host, config.hosts());
   if (options.host != kMainHost) {
     const int code = run_host(options, config, process.domain, plugins);
-    if (options.json) fmt::print("{}", ending(code == kOk ? "ok" : "fault", ""));
+    if (options.json) print_out("{}", ending(code == kOk ? "ok" : "fault", ""));
     return code;
   }
   if (options.report && !is_child) {
@@ -330,7 +332,7 @@ int run_deployment(const RunOptions& options) {
   } catch (const std::exception& error) {
     if (end_signals::is_result_told()) throw;
     const std::string told = ending(status_of(error), error.what());
-    if (options.json) fmt::print("{}", told);
+    if (options.json) print_out("{}", told);
     if (end_signals::report_allowed()) write_ending(*options.report, told);
     throw;
   }

@@ -17,6 +17,7 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/runtime/processes/running_processes.hpp"
 #include "exit_code.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -146,7 +147,7 @@ int stop_arms(const StopOptions& options) {
   }
   const bool taken = stopping.acknowledged() && !one_fell_silent;
   for (const auto& [who, of_deployment] : stopping.heard_by()) {
-    if (of_deployment) fmt::print("{} {}\n", taken ? "stopped:" : "sent to", who);
+    if (of_deployment) print_out("{} {}\n", taken ? "stopped:" : "sent to", who);
   }
   const bool halted = halted_told(options.network.domain);
   if (!taken && !halted) {
@@ -156,7 +157,7 @@ int stop_arms(const StopOptions& options) {
                options.timeout_s);
   }
   if (!taken || halted) return kTimedOut;
-  fmt::print("They stay stopped until they are rearmed\n");
+  print_out("They stay stopped until they are rearmed\n");
   return kOk;
 }
 

@@ -9,15 +9,17 @@
 #include "armature/values/sanitizer.hpp"
 #include "exit_code.hpp"
 #include "run/ending.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
 
 /// Never waits for a reader.
 void write_out(std::string_view text) {
-  pollfd writable{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
+  pollfd writable{.fd = standard_output_descriptor(), .events = POLLOUT, .revents = 0};
   if (poll(&writable, 1, 0) <= 0) return;
-  [[maybe_unused]] const auto written = ::write(STDOUT_FILENO, text.data(), text.size());
+  [[maybe_unused]] const auto written =
+      ::write(standard_output_descriptor(), text.data(), text.size());
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "schema/component_schema.hpp"
 #include "schema/robot_schema.hpp"
 #include "schema/value_schema.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -119,7 +120,7 @@ Json deployment_schema(const PluginRegistry& plugins) {
 
 int print_schema(const std::string& of) {
   if (of != "deployment") {
-    fmt::print("{}\n", readable(of == "robot" ? robot_schema() : rig_schema()));
+    print_out("{}\n", readable(of == "robot" ? robot_schema() : rig_schema()));
     return kOk;
   }
   const PluginRegistry plugins;
@@ -127,7 +128,7 @@ int print_schema(const std::string& of) {
   for (const auto& [file, reason] : plugins.unusable()) {
     fmt::print(stderr, "armature: {} is not in the schema: {}\n", file.string(), reason);
   }
-  fmt::print("{}\n", readable(deployment_schema(plugins)));
+  print_out("{}\n", readable(deployment_schema(plugins)));
   return kOk;
 }
 

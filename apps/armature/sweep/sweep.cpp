@@ -19,6 +19,7 @@
 #include "isolated.hpp"
 #include "progress.hpp"
 #include "readable_json.hpp"
+#include "standard_output.hpp"
 #include "sweep/finished_runs.hpp"
 #include "sweep/lockstep_run.hpp"
 #include "sweep/spread.hpp"
@@ -188,10 +189,10 @@ int sweep_deployment(const SweepOptions& options) {
     if (options.json) {
       json.push_back(to_json(spread));
     } else {
-      fmt::print("{}", to_text(spread));
+      print_out("{}", to_text(spread));
     }
   }
-  if (options.json) fmt::print("{}\n", readable(json));
+  if (options.json) print_out("{}\n", readable(json));
   return std::ranges::all_of(spreads, &sweep::RunSpread::is_ok) ? kOk : kFailed;
 }
 

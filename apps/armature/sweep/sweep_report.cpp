@@ -16,6 +16,7 @@
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "colour.hpp"
 #include "csv_field.hpp"
+#include "standard_output.hpp"
 
 namespace armature::sweep {
 namespace {
@@ -75,8 +76,8 @@ std::string text_of(const JudgedSweepGoal& judged) {
                                : std::string{to_string(goal.statistic)};
   const bool is_met = judged.fault.empty();
   return fmt::format("  {}, {}: {:.4g}; {}  {}\n", goal.metric, what, judged.value, wanted,
-                     is_met ? coloured("met", Tone::good, stdout)
-                            : coloured("MISSED: " + judged.fault, Tone::bad, stdout));
+                     is_met ? coloured("met", Tone::good, standard_output())
+                            : coloured("MISSED: " + judged.fault, Tone::bad, standard_output()));
 }
 
 std::string csv_of(const std::vector<RunSpread>& spreads) {

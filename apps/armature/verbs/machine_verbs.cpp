@@ -9,6 +9,7 @@
 #include "completion/script.hpp"
 #include "doctor/doctor.hpp"
 #include "exit_code.hpp"
+#include "standard_output.hpp"
 #include "verbs/man_page.hpp"
 #include "verbs/verb_tree.hpp"
 #include "verbs/verbs.hpp"
@@ -37,7 +38,7 @@ void add_words(CLI::App& app, Action& action) {
   CLI::App* man = app.add_subcommand("man", "Print this help as a manual page (roff)");
   man->callback([&app, &action] {
     action = [&app] {
-      fmt::print("{}", man_page(verb_tree(app), ARMATURE_VERSION));
+      print_out("{}", man_page(verb_tree(app), ARMATURE_VERSION));
       return kOk;
     };
   });

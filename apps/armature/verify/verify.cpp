@@ -16,6 +16,7 @@
 #include "inspect/plugins.hpp"
 #include "isolated.hpp"
 #include "plugin_laws.hpp"
+#include "standard_output.hpp"
 #include "verbs/shipped_configs.hpp"
 
 namespace armature {
@@ -129,16 +130,17 @@ void print_law(const Json& law) {
                          law["questions"].get<int>(), remark.empty() ? "" : "; ", remark);
   }
   const Tone tone = result == "fail" ? Tone::bad : result == "skip" ? Tone::doubtful : Tone::good;
-  fmt::print("  {}  {:<46} {:>6.2f} s  {}\n",
-             coloured(fmt::format("{:<4}", result == "fail" ? "FAIL" : result), tone, stdout),
-             law["law"].get<std::string>(), law["seconds"].get<double>(), remark);
+  print_out(
+      "  {}  {:<46} {:>6.2f} s  {}\n",
+      coloured(fmt::format("{:<4}", result == "fail" ? "FAIL" : result), tone, standard_output()),
+      law["law"].get<std::string>(), law["seconds"].get<double>(), remark);
   for (const Json& violation : law["violations"]) {
-    fmt::print("          {}\n", violation["what"].get<std::string>());
+    print_out("          {}\n", violation["what"].get<std::string>());
     std::string again = violation["reproduce"];
     if (again.empty()) again = violation["question"];
-    if (!again.empty()) fmt::print("          {}\n", again);
+    if (!again.empty()) print_out("          {}\n", again);
   }
-  std::fflush(stdout);
+  std::fflush(standard_output());
 }
 
 bool kept(const Json& robot) {
@@ -178,20 +180,20 @@ int verify_plugin(const VerifyOptions& options) {
                                .arm = arm,
                                .environment = choice.environment});
     if (!options.json) {
-      fmt::print("{}{}{}\n", plugin->id, arm.robot.empty() ? "" : " with ", arm.robot);
+      print_out("{}{}{}\n", plugin->id, arm.robot.empty() ? "" : " with ", arm.robot);
     }
     Json robot{{"robot", arm.robot.empty() ? "" : load_arm(arm).name()}, {"file", arm.robot}};
     robot.update(Verification{*laws, options.timeout_s}.run([&](const Json& law) {
       if (!options.json) print_law(law);
     }));
     const std::string refused = robot["refused"];
-    if (!options.json && !refused.empty()) fmt::print("  not served: {}\n", refused);
+    if (!options.json && !refused.empty()) print_out("  not served: {}\n", refused);
     if (refused.empty()) ++served;
     ok = ok && kept(robot);
     all["robots"].push_back(robot);
   }
   all["ok"] = ok = ok && served > 0;
-  if (options.json) fmt::print("{}\n", json_text(all));
+  if (options.json) print_out("{}\n", json_text(all));
   if (served == 0) {
     fmt::print(stderr, "armature: {} {}\n", plugin->id,
                is_made_for_robot(*plugin) ? "serves none of these robots" : "cannot be made");

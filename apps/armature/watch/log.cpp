@@ -18,6 +18,7 @@
 #include "armature/values/json_text.hpp"
 #include "colour.hpp"
 #include "exit_code.hpp"
+#include "standard_output.hpp"
 #include "terminal_text.hpp"
 
 namespace armature {
@@ -80,7 +81,8 @@ void print(const WrittenLine& written, bool json) {
   constexpr std::size_t kIndent = 21;  // behind time and level
   text += terminal_lines(line.msg_(), kIndent);
   if (line.level_() < level_named("warning")) return tell(text);
-  tell(coloured(text, line.level_() < level_named("error") ? Tone::doubtful : Tone::bad, stdout));
+  tell(coloured(text, line.level_() < level_named("error") ? Tone::doubtful : Tone::bad,
+                standard_output()));
 }
 
 /// The lines that are wanted. What was said before comes from several processes, each in its own

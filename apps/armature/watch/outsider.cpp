@@ -19,6 +19,7 @@
 #include "armature/runtime/plugins/described_messages.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
+#include "standard_output.hpp"
 #include "terminal_text.hpp"
 
 namespace armature {
@@ -49,12 +50,12 @@ bool wait_for(Duration time) {
 }
 
 void tell(const std::string& line) {
-  const bool written = std::fputs((line + '\n').c_str(), stdout) >= 0;
-  if (written && std::fflush(stdout) == 0) return;
+  const bool written = std::fputs((line + '\n').c_str(), standard_output()) >= 0;
+  if (written && std::fflush(standard_output()) == 0) return;
   g_leaves = true;
   if (errno != EPIPE) return;  // a full disk is told at the end
-  __fpurge(stdout);
-  std::clearerr(stdout);
+  __fpurge(standard_output());
+  std::clearerr(standard_output());
 }
 
 Outsider::Outsider(const WatchOptions& options, bool asks_again) : options_{options} {

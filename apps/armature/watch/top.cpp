@@ -12,6 +12,7 @@
 
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
+#include "standard_output.hpp"
 #include "watch/seen_deployments.hpp"
 #include "watch/top_screen.hpp"
 #include "watch/top_table.hpp"
@@ -227,7 +228,7 @@ int print_tables(SeenDeployments& seen, const TopOptions& options) {
     const TopTable table = top_table(seen.all(), {}, monotonic_now());
     tell(table.title);
     for (const auto& [text, tone] : table.lines) {
-      tell(tone ? coloured(text, *tone, stdout) : text);
+      tell(tone ? coloured(text, *tone, standard_output()) : text);
     }
   }
   return kOk;
@@ -240,8 +241,8 @@ int watch_components(const TopOptions& options) {
   SeenDeployments seen{options, options.deployment};
   const char* term = std::getenv("TERM");
   const bool is_dumb = term && std::string_view{term} == "dumb";
-  const bool live = !options.json && options.count == 0 && !is_dumb && isatty(STDOUT_FILENO) != 0 &&
-                    isatty(STDIN_FILENO) != 0;
+  const bool live = !options.json && options.count == 0 && !is_dumb &&
+                    isatty(standard_output_descriptor()) != 0 && isatty(STDIN_FILENO) != 0;
   if (!live) return print_tables(seen, options);
   return LiveTable{seen}.run(options.interval_s, options.timeout_s);
 }

@@ -8,6 +8,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "standard_output.hpp"
+
 namespace armature {
 namespace {
 
@@ -35,7 +37,7 @@ int attributes_of(const TopLine& line) {
 }  // namespace
 
 TopScreen::TopScreen() {
-  if (!newterm(nullptr, stdout, stdin)) {
+  if (!newterm(nullptr, standard_output(), stdin)) {
     const char* term = std::getenv("TERM");
     throw std::runtime_error("the terminal '" + std::string{term ? term : ""} +
                              "' is not known here; set TERM, or take `armature top -n 1`");

@@ -19,6 +19,7 @@
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
+#include "standard_output.hpp"
 #include "workspace/workspace_points.hpp"
 
 namespace armature {
@@ -169,12 +170,11 @@ nlohmann::ordered_json figures_of(const Workspace& workspace,
 void print(const nlohmann::ordered_json& told) {
   for (const auto& [key, value] : told.items()) {
     if (value.is_array()) {
-      fmt::print("  {:<14} {:.4f} to {:.4f}\n", key, value[0].get<double>(),
-                 value[1].get<double>());
+      print_out("  {:<14} {:.4f} to {:.4f}\n", key, value[0].get<double>(), value[1].get<double>());
     } else if (value.is_number_float()) {
-      fmt::print("  {:<14} {:.4f}\n", key, value.get<double>());
+      print_out("  {:<14} {:.4f}\n", key, value.get<double>());
     } else {
-      fmt::print("  {:<14} {}\n", key, json_text(value));
+      print_out("  {:<14} {}\n", key, json_text(value));
     }
   }
 }
@@ -190,7 +190,7 @@ int run_workspace(const WorkspaceOptions& options) {
                                      : free_workspace(robot, options.samples, options.seed);
   const auto told = figures_of(workspace, centre, options);
   if (options.json) {
-    fmt::print("{}\n", json_text(told));
+    print_out("{}\n", json_text(told));
   } else {
     print(told);
   }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <csignal>
+#include <cstdio>
 
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/robot/kinematics/task_error.hpp"
@@ -30,6 +31,7 @@ class FaultyIk final : public IkSolver {
       return {IkStatus::Code::invalid_input, 0, why};
     }
     if (fault_ == Fault::crash && goal.pose.position.x() > 0.5) std::raise(SIGSEGV);
+    if (fault_ == Fault::print) std::printf("[solving\n");
     if (fault_ == Fault::crash_at_depth && goal.redundancy) std::raise(SIGSEGV);
     while (fault_ == Fault::hang && goal.pose.position.x() > 0.5) pause();
     const auto& [position_m, angle_rad] = goal.tolerance;

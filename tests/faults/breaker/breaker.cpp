@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <chrono>
 #include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <iostream>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -50,6 +52,11 @@ class Breaker final : public Component {
       std::this_thread::sleep_for(std::chrono::duration<double>{parameters_.hangs});
     if (breaks == crashes) std::raise(SIGSEGV);
     if (breaks == exits) std::exit(0);
+    if (breaks == prints) {
+      std::printf("[printed\n");
+      std::cout << "[streamed" << std::endl;
+      [[maybe_unused]] const int status = std::system("echo [echoed");
+    }
   }
 
   Parameters parameters_;

@@ -25,6 +25,7 @@
 #include "bench/statistics.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
+#include "standard_output.hpp"
 #include "watch/outsider.hpp"
 
 namespace armature {
@@ -196,7 +197,7 @@ int bench_bus(const BusBenchOptions& options) {
     report.rounds.push_back(contestants.round(order));
     progress.part((i + 1.0) / options.rounds);
   }
-  fmt::print("{}", options.json ? bench::to_json(report) + "\n" : bench::table(report));
+  print_out("{}", options.json ? bench::to_json(report) + "\n" : bench::table(report));
   return bench::is_met(report) ? kOk : kFailed;
 }
 

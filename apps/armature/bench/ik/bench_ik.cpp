@@ -18,6 +18,7 @@
 #include "bench/ik/report.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -96,8 +97,8 @@ int bench_ik(const BenchOptions& options) {
     series = bench::measure(*model, runners, poses, how);
     report.rows = bench::rows_of(series, report.baseline, options.seed);
   }
-  fmt::print("{}", options.json ? json_text(to_json(report)) + "\n" : table(report));
-  std::fflush(stdout);  // also when the files cannot be written
+  print_out("{}", options.json ? json_text(to_json(report)) + "\n" : table(report));
+  std::fflush(standard_output());  // also when the files cannot be written
   if (options.out && !series.empty()) write_files(*options.out, report, series);
   if (runners.empty()) fmt::print(stderr, "armature: no solver serves this robot\n");
   return runners.empty() ? kFailed : kOk;

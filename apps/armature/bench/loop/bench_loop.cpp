@@ -25,6 +25,7 @@
 #include "bench/temporary_folder.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
+#include "standard_output.hpp"
 #include "watch/outsider.hpp"
 
 namespace armature {
@@ -188,7 +189,7 @@ int bench_loop(const LoopBenchOptions& options) {
       progress.part(++done / work);
     }
   }
-  fmt::print("{}", options.json ? bench::to_json(report) + "\n" : bench::table(report));
+  print_out("{}", options.json ? bench::to_json(report) + "\n" : bench::table(report));
   return bench::is_met(report) ? kOk : kFailed;
 }
 

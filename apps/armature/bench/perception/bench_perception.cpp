@@ -17,6 +17,7 @@
 #include "bench/perception/worst_pairs.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -69,8 +70,8 @@ int bench_perception(const PerceptionBenchOptions& options) {
                                        .machine = bench::this_machine(),
                                        .rows = bench::rows_of(results),
                                        .stages = bench::stages_of(results)};
-  fmt::print("{}", options.json ? to_json(report) + "\n" : table(report));
-  std::fflush(stdout);  // also when the files cannot be written
+  print_out("{}", options.json ? to_json(report) + "\n" : table(report));
+  std::fflush(standard_output());  // also when the files cannot be written
   if (options.csv) write_atomically(*options.csv, bench::csv_of(results), FileUse::named_by_user);
   if (options.worst) bench::write_worst_pairs(*options.worst, cases, results);
   return kOk;

@@ -10,6 +10,7 @@
 #include "bench/plan/plan_report.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 namespace {
@@ -77,7 +78,7 @@ int bench_plan(const PlanBenchOptions& options) {
   }
   report.interpolators = bench::measure_interpolators(std::min(options.motions, 200), options.keys,
                                                       options.seed, options.repetitions);
-  fmt::print("{}", options.json ? bench::to_json(report) + "\n" : bench::table(report));
+  print_out("{}", options.json ? bench::to_json(report) + "\n" : bench::table(report));
   return kOk;
 }
 

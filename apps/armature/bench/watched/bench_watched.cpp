@@ -28,6 +28,7 @@
 #include "bench/watched/watched_report.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
+#include "standard_output.hpp"
 #include "watch/outsider.hpp"
 
 namespace armature {
@@ -217,7 +218,7 @@ int bench_watched(const WatchedBenchOptions& options) {
     }
     report.rounds.push_back(round);
   }
-  fmt::print("{}", options.json ? bench::to_json(report) + "\n" : bench::table(report));
+  print_out("{}", options.json ? bench::to_json(report) + "\n" : bench::table(report));
   return bench::is_met(report) ? kOk : kFailed;
 }
 

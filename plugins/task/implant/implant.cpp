@@ -67,13 +67,6 @@ void Implant::see_jaw(const Sighting& sighting) {
   if (!rests) see_jaw_moved(rests.error().text);
 }
 
-void Implant::see_jaw_moved(const std::string& why) {
-  const bool nothing_set_out =
-      phase_ == Phase::locating || (phase_ == Phase::approaching && !set_out_);
-  if (procedure_.auto_confirm() || !nothing_set_out) return refuse(why);
-  register_again(why);
-}
-
 void Implant::see_registration(const RegisteredJaw& jaw, Time now) {
   if (phase_ != Phase::registering) return;
   const auto registered = guidance_.see_registration(jaw, now);

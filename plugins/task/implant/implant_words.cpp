@@ -48,6 +48,13 @@ Expected<void> Implant::go_back(Time now) {
   return {};
 }
 
+void Implant::see_jaw_moved(const std::string& why) {
+  const bool nothing_set_out =
+      phase_ == Phase::locating || (phase_ == Phase::approaching && !set_out_);
+  if (procedure_.auto_confirm() || !nothing_set_out) return refuse(why);
+  register_again(why);
+}
+
 void Implant::register_again(const std::string& why) {
   guidance_.register_again(why);
   phase_ = Phase::registering;

@@ -24,23 +24,23 @@ const std::string& joint_name(const RobotModel& model, int i) {
 
 const char* unit(const RobotModel& model, int i) { return model.is_revolute(i) ? "rad" : "m"; }
 
-/// Of joint `i`, or empty: "joint j3 jumps by 0.1 in position, 0 in velocity, 0 in acceleration".
-ReasonText jump(const Quintic::End& from, const Quintic::End& to, const RobotModel& model, int i) {
-  const double q = std::abs(to.q - from.q);
-  const double v = std::abs(to.v - from.v);
-  const double a = std::abs(to.a - from.a);
-  if (q <= kJumpPosition && v <= kJumpVelocity && a <= kJumpAcceleration) return {};
+bool meet(const Quintic::End& from, const Quintic::End& to) {
+  return std::abs(to.q - from.q) <= kJumpPosition && std::abs(to.v - from.v) <= kJumpVelocity &&
+         std::abs(to.a - from.a) <= kJumpAcceleration;
+}
+
+ReasonText jump(const Quintic::End& from, const Quintic::End& to, const std::string& joint) {
   return ReasonText::format(
-      "joint {} jumps by {:.3g} in position, {:.3g} in velocity, {:.3g} in acceleration",
-      joint_name(model, i), q, v, a);
+      "joint {} jumps by {:.3g} in position, {:.3g} in velocity, {:.3g} in acceleration", joint,
+      std::abs(to.q - from.q), std::abs(to.v - from.v), std::abs(to.a - from.a));
 }
 
 ReasonText jump_at_start(const JointState& from, const JointState& to, const RobotModel& model) {
   for (int i = 0; i < model.dof(); ++i) {
-    const ReasonText wrong =
-        jump({from.q[i], from.v[i], from.a[i]}, {to.q[i], to.v[i], to.a[i]}, model, i);
-    if (wrong.empty()) continue;
-    return ReasonText::format("the trajectory does not leave the reference: {}", wrong.view());
+    const Quintic::End stands{from.q[i], from.v[i], from.a[i]}, begins{to.q[i], to.v[i], to.a[i]};
+    if (meet(stands, begins)) continue;
+    return ReasonText::format("the trajectory does not leave the reference: {}",
+                              jump(stands, begins, joint_name(model, i)).view());
   }
   return {};
 }
@@ -120,12 +120,12 @@ ReasonText jump_between(const TrajectoryView& trajectory, int k, const RobotMode
   const double lasted_s = *knot - *(knot - 1);
   for (int i = 0; i < model.dof(); ++i) {
     const Quintic before = trajectory.piece(k - 1, i), after = trajectory.piece(k, i);
-    const ReasonText wrong =
-        jump({before.position(lasted_s), before.velocity(lasted_s), before.acceleration(lasted_s)},
-             {after.c[0], after.c[1], 2 * after.c[2]}, model, i);
-    if (wrong.empty()) continue;
+    const Quintic::End ended{before.position(lasted_s), before.velocity(lasted_s),
+                             before.acceleration(lasted_s)};
+    const Quintic::End begins{after.c[0], after.c[1], 2 * after.c[2]};
+    if (meet(ended, begins)) continue;
     return ReasonText::format("the trajectory jumps where two pieces meet, at {:.2f} s: {}", *knot,
-                              wrong.view());
+                              jump(ended, begins, joint_name(model, i)).view());
   }
   return {};
 }

@@ -20,7 +20,7 @@ void FlangePlace::see(const Sighting& sighting, const Eigen::Isometry3d& base_T_
 }
 
 std::optional<std::string> FlangePlace::defect(std::span<const Eigen::Vector3d> points) const {
-  constexpr double kScatters = 4;  // rms: fewer than one mean in ten thousand is farther off
+  constexpr double kScatters = 4;  // rms: one mean in some thousand is farther off
   const Eigen::Isometry3d base_T_seen = hand_eye_.base_T_tracker * average_.mean();
   for (const Eigen::Vector3d& point : points) {
     const Eigen::Vector3d on_body = base_T_body().inverse() * point;

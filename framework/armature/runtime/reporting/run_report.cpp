@@ -14,6 +14,7 @@
 #include "armature/runtime/plugins/setup_error.hpp"
 #include "armature/runtime/reporting/output_folder.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/json_text.hpp"
 
 namespace armature {
 
@@ -196,13 +197,14 @@ std::string to_json(const RunReport& report) {
   if (!report.unwell().empty()) json["unwell"] = report.unwell();
   if (!report.ended_by().empty()) json["ended_by"] = report.ended_by();
   if (report.timing()) json["timing"] = to_json(*report.timing());
-  return json.dump();
+  return json_text(json);
 }
 
 std::string figures_json(const RunReport& report, const RunTiming& timing) {
   Json json{{"status", report.status()}, {"reasons", Json::array()}, {"figures", Json::array()}};
   if (!report.story_reason().empty()) json["reasons"].push_back(report.story_reason());
   for (const std::string& reason : report.reasons()) json["reasons"].push_back(reason);
+  for (const std::string& unwell : report.unwell()) json["reasons"].push_back("unwell: " + unwell);
   for (const auto& figure : report.figures()) {
     Json& told = json["figures"].emplace_back();
     told = {{"key", figure.key},
@@ -216,8 +218,7 @@ std::string figures_json(const RunReport& report, const RunTiming& timing) {
     if (!figure.inapplicable.empty()) told["does_not_apply"] = figure.inapplicable;
   }
   json["timing"] = to_json(timing);
-  // What a component tells need not be UTF-8, and a recording ends all the same.
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return json_text(json);
 }
 
 std::string to_table(const RunReport& report, const Mark& mark) {

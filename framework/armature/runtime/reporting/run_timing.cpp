@@ -8,6 +8,7 @@
 #include <set>
 
 #include "armature/runtime/deployment/deployment.hpp"
+#include "armature/values/json_text.hpp"
 
 namespace armature {
 namespace {
@@ -91,10 +92,10 @@ Json to_json(const RunTiming& timing) {
 std::vector<std::string> to_lines(const RunTiming& timing) {
   std::vector<std::string> lines;
   for (const auto& executor : timing.executors) {
-    lines.push_back(Json{{"executor", executor.name}, {"times", to_json(executor)}}.dump());
+    lines.push_back(json_text(Json{{"executor", executor.name}, {"times", to_json(executor)}}));
   }
   for (const auto& component : timing.components) {
-    lines.push_back(Json{{"component", component.name}, {"times", to_json(component)}}.dump());
+    lines.push_back(json_text(Json{{"component", component.name}, {"times", to_json(component)}}));
   }
   return lines;
 }

@@ -16,6 +16,7 @@
 #include "armature/kinds/ik/lines/json_line.hpp"
 #include "armature/kinds/ik/lines/reason.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/values/json_text.hpp"
 
 namespace armature {
 namespace {
@@ -50,7 +51,7 @@ std::string answered(std::string_view line, std::initializer_list<std::string_vi
     whole["status"] = "invalid_input";
     whole["reason"] = error.what();
   }
-  return whole.dump();
+  return json_text(whole);
 }
 
 Eigen::Vector3d vector3(const Json& json, const char* key) {

@@ -9,6 +9,7 @@
 #include "armature/config/problems.hpp"
 #include "armature/kinds/ik/lines/json_line.hpp"
 #include "armature/kinds/ik/lines/reason.hpp"
+#include "armature/values/json_text.hpp"
 
 namespace armature {
 namespace {
@@ -33,7 +34,7 @@ void expect_id(const Json& answer, const std::optional<std::int64_t>& id) {
     throw InvalidLine(fmt::format("without the 'id' of the question, {}", *id));
   }
   if (answer["id"] != *id) {
-    throw InvalidLine(fmt::format("question {}, and {} was asked", answer["id"].dump(), *id));
+    throw InvalidLine(fmt::format("question {}, and {} was asked", json_text(answer["id"]), *id));
   }
 }
 
@@ -46,7 +47,7 @@ Code read_code(const Json& answer) {
     if (answer["status"] == known.back()) return code;
   }
   const std::string told = answer["status"].is_string() ? answer["status"].get<std::string>() : "";
-  throw InvalidLine(fmt::format("with the status {}{}", answer["status"].dump(),
+  throw InvalidLine(fmt::format("with the status {}{}", json_text(answer["status"]),
                                 config::did_you_mean(told, known)));
 }
 
@@ -125,7 +126,7 @@ std::string question_line(const RobotModel& robot, const IkQuestion& question) {
   if (question.seed.size() == robot.dof()) {
     line["seed"] = ik_lines::to_json(robot.to_all(question.seed));
   }
-  return line.dump();
+  return json_text(line);
 }
 
 Expected<ToldAnswer> read_answer(const RobotModel& robot, const IkQuestion& question,

@@ -132,8 +132,7 @@ class Dialogue {
     if (summary == shown_) return;
     shown_ = summary;
     question_.show(step_that_asks(*state), Steady::now());
-    print_out("{}
-", options_.json ? json_text(json_of(*state)) : table_of(*state));
+    print_out("{}\n", options_.json ? json_text(json_of(*state)) : table_of(*state));
     if (const std::string asks = step_that_asks(*state); !asks.empty() && !options_.json) {
       print_out("c(onfirm) '{}', p(ause), b(ack), a(bort)?\n", terminal_text(asks));
     }

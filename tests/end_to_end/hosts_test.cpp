@@ -235,8 +235,9 @@ TEST(HostsOfAFile, AreThoseOfItsProcesses) {
               HasSubstr("component 'beat' is on another host, and no network "
                         "leads there: name the interfaces to join, dds: "
                         "{interfaces: [eth0]}"));
-  EXPECT_THAT(checked("components.beat.process=two words").err,
-              HasSubstr("'two words' must consist of letters, digits and '_' on another host"));
+  EXPECT_THAT(
+      checked("components.beat.process=two words").err,
+      HasSubstr("'two words' must consist of letters, digits and '_', and begin with no digit"));
   EXPECT_THAT(checked("components.beat.process=main").err,
               HasSubstr("component 'beat' is on host 'desk', and its process 'main' on 'main', as "
                         "always"));

@@ -11,6 +11,7 @@
 
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
+#include "standard_output.hpp"
 
 namespace armature {
 
@@ -26,6 +27,7 @@ int run_stereo_calibration(const StereoCalibrationOptions& options) {
                                                      {"coverage", options.coverage},
                                                      {"with_k3", options.with_k3},
                                                      {"json", options.json}});
+  dup2(standard_output_descriptor(), STDOUT_FILENO);  // the result is that program's
   execl(program.c_str(), program.c_str(), words.c_str(), nullptr);
   fmt::print(stderr, "{}: {}{}\n", program.string(), std::strerror(errno),
              errno == ENOENT ? "; it is built where OpenCV is: -DARMATURE_VISION=ON" : "");

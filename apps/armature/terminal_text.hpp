@@ -36,7 +36,7 @@ void for_each_shown(std::string_view text, const Put& put) {
   }
 }
 
-/// What somebody else wrote, as one line that a terminal shows and does not obey: control
+/// The text that somebody else wrote, as one line that a terminal shows and does not obey: control
 /// characters, line ends, marks that turn the direction of writing, and bytes that are no UTF-8 as
 /// `\x1b`; all else as it is.
 std::string terminal_text(std::string_view text);

@@ -38,9 +38,10 @@ struct Spread {
   double p95() const;
   double max() const { return values.back(); }
   double rms() const;
-  /// Of all runs that it applies to, measured or not.
+  /// The share of the runs that the figure applies to, measured or not, whose value is at most
+  /// `limit`.
   double share_at_most(double limit) const;
-  /// Runs that it applies to.
+  /// The count of the runs that it applies to.
   std::size_t runs() const { return values.size() + unmeasured; }
 };
 

@@ -59,7 +59,7 @@ struct Range {
   double lower, upper;
 };
 
-/// Of a joint that turns without an end, one turn.
+/// The range of a joint that is looked at: its limits, or one turn where it turns without an end.
 Range range_of(const RobotModel& model, int joint) {
   const double lower = model.lower()[joint], upper = model.upper()[joint];
   if (std::isfinite(lower) && std::isfinite(upper)) return {lower, upper};

@@ -115,6 +115,7 @@ bool GoalExecution::silent(Time now, const std::optional<MeasuredJoints>& measur
 }
 
 void GoalExecution::stop(Time now) {
+  spliced_ = false;  // a plan that was taken in this step is dropped, or slowed as it began
   if (reference_.slow_down(now, limits_)) return;
   reference_.splice(short_stop_from(reference_.at(now), limits_.max_velocity,
                                     limits_.max_acceleration, now, last_goal_id_));

@@ -7,16 +7,16 @@
 namespace armature {
 namespace {
 
-constexpr double kOfLimits = 0.97;     // of the limits: between two nodes they are not looked at
-constexpr double kLeastStop_s = 0.01;  // of a stop from the planned speed
-constexpr double kStepsAStop = 96;  // at first; every step is longer by kLongerSteps of the first
+constexpr double kOfLimits = 0.97;   // of the limits: between two nodes they are not looked at
+constexpr double kMinStop_s = 0.01;  // of a stop from the planned speed
+constexpr double kStepsAStop = 96;   // at first; every step is longer by kLongerSteps of the first
 constexpr double kLongerSteps = 1.0 / 48;
 constexpr double kBegins = 4.4;  // the slowing is there after about a seventh of the stop
 
 /// [1/s] How fast the rate of time may fall at `state`, which is that of the trajectory, for all
 /// accelerations to keep their limits. What the trajectory itself needs is always allowed.
 double allowed_slowing(const JointState& state, double rate, const JointVector& limits) {
-  double allowed = 1.5 / kLeastStop_s;
+  double allowed = 1.5 / kMinStop_s;
   for (Eigen::Index j = 0; j < limits.size(); ++j) {
     const double speed = std::abs(state.v[j]);
     if (speed == 0) continue;
@@ -41,7 +41,7 @@ bool Slowing::begin(const TrajectoryView& trajectory, double from_s, const Motio
   const JointVector& most = limits.max_acceleration;
   const JointState now = state_at(trajectory, from_s);
   const double use = now.v.cwiseQuotient(most).cwiseAbs().maxCoeff();
-  const double first_s = std::max(kLeastStop_s, 1.5 * use) / kStepsAStop;
+  const double first_s = std::max(kMinStop_s, 1.5 * use) / kStepsAStop;
   const double end_s = trajectory.duration_s();
   nodes_[0] = {.place = from_s, .rate = 1};
   for (count_ = 1; count_ < kNodes; ++count_) {

@@ -89,9 +89,9 @@ TEST(Slowing, OnAStraightWayTakesLittleLongerThanAStopInJointSpace) {
   for (const double speed : {1.0, 0.5, 0.1}) way.pieces.push_back({{0, speed}});
   Slowing slowing;
   ASSERT_TRUE(slowing.begin(way.view(), 2, kLimits));
-  const double least_s = 1.5 * 0.5 / 3;  // of the second joint
-  EXPECT_GT(slowing.duration_s(), least_s);
-  EXPECT_LT(slowing.duration_s(), 1.3 * least_s);
+  const double min_s = 1.5 * 0.5 / 3;  // of the second joint
+  EXPECT_GT(slowing.duration_s(), min_s);
+  EXPECT_LT(slowing.duration_s(), 1.3 * min_s);
   double before = 1;
   for (double t = 0; t < slowing.duration_s(); t += 0.001) {
     const JointState state = slowing.at(way.view(), t);

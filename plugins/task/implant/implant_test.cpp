@@ -102,9 +102,10 @@ TEST_F(ImplantTest, TwoSitesAtOnePlaceAreRefusedBeforeAnythingMoves) {
   sites_.push_back(sites_[0]);
   begin();
   EXPECT_EQ(task_.phase(), Phase::refused);
-  EXPECT_EQ(task_.trouble(),
-            "the plan: the bores of sites 1 and 3 come as near as 0.00 mm to each other, axis to axis; "
-            "'min_site_distance_mm' is 7");
+  EXPECT_EQ(
+      task_.trouble(),
+      "the plan: the bores of sites 1 and 3 come as near as 0.00 mm to each other, axis to axis; "
+      "'min_site_distance_mm' is 7");
   wait(1);
   EXPECT_TRUE(goals_.empty());
 }

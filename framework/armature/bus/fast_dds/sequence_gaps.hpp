@@ -22,7 +22,7 @@ class SequenceGaps {
     if (!last || sequence <= *last) return 0;
     return sequence - std::exchange(*last, sequence) - 1;
   }
-  /// How many are remembered: those that were heard last.
+  /// The count of the writers that are remembered: those that were heard last.
   std::size_t writers() const { return last_.size(); }
 
  private:

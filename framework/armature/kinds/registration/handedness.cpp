@@ -11,7 +11,8 @@
 namespace armature {
 namespace {
 
-/// How a motion and a reflection fit the same markers, rms [m], and what their error explains.
+/// The residuals of the same markers after the best motion and after the best reflection, rms [m],
+/// and the largest that the error of the markers explains.
 struct Fits {
   double direct_m, mirrored_m, explained_m;
 
@@ -57,8 +58,7 @@ std::optional<std::string> exchangeable_handedness(const MirroredMatch& match,
   return fmt::format(
       "the markers do not tell whether the images are mirrored: exchanged, they fit their mirror "
       "image to {:.2g} mm, and an error of {:.2g} mm a marker explains {:.2g} mm. Put a marker "
-      "where "
-      "none is on the other side, or vouch for the images (handedness_vouched: true)",
+      "where none is on the other side, or vouch for the images (handedness_vouched: true)",
       1e3 * match.rms_m, 1e3 * marker_error_m, 1e3 * explained_m);
 }
 

@@ -24,10 +24,11 @@ Expected<std::vector<std::size_t>> match_markers(std::span<const Eigen::Vector3d
                                                  std::span<const Eigen::Vector3d> measured,
                                                  double tolerance_m);
 
-/// How well the best choice among the same ones fits the mirror image of the planned markers, rms
-/// [m]: what a mirrored scan would be registered with. Near 0 for three markers, for others in one
-/// plane, and for those that lie alike on both sides of one: their mirror image is they themselves,
-/// exchanged. Infinite where no choice keeps the distances, or `match_markers` refuses to search.
+/// The rms residual [m] of the best choice among the same measured points, fitted to the mirror
+/// image of the planned markers: what a mirrored scan would be registered with. Near 0 for three
+/// markers, for others in one plane, and for those that lie alike on both sides of one: their
+/// mirror image is they themselves, exchanged. Infinite where no choice keeps the distances, or
+/// `match_markers` refuses to search.
 double mirrored_match_rms(std::span<const Eigen::Vector3d> planned,
                           std::span<const Eigen::Vector3d> measured, double tolerance_m);
 

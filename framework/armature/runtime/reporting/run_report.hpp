@@ -76,8 +76,8 @@ class RunReport final : public Summary {
 };
 
 /// One JSON object: `status` first, `reason` when that is not ok, figures in order, why any of them
-/// is null under `not_measured` or `does_not_apply`, `reasons`, `unwell`, and `ended_by`; numbers as
-/// the shortest text that reads back the same.
+/// is null under `not_measured` or `does_not_apply`, `reasons`, `unwell`, and `ended_by`; numbers
+/// as the shortest text that reads back the same.
 std::string to_json(const RunReport& report);
 /// One JSON object with what the closing table says, so that a page can show it again: `status`,
 /// `reasons`, `figures` in order, each with `key`, `title`, `value`, and where there are such

@@ -26,8 +26,8 @@ void AlignmentMonitor::restart_average(Time now) {
   rest_since_ = now;
 }
 
-void AlignmentMonitor::see_truth(const Face& truth, Time now) {
-  const bool changed = truth_ && ((truth.mouth - truth_->mouth).norm() > kStillPosition ||
+void AlignmentMonitor::see_truth(const TargetEstimate& truth, Time now) {
+  const bool changed = truth_ && ((truth.position - truth_->position).norm() > kStillPosition ||
                                   angle_between(truth.normal, truth_->normal) > kStillAngle);
   truth_ = truth;
   if (!changed) return;
@@ -35,38 +35,38 @@ void AlignmentMonitor::see_truth(const Face& truth, Time now) {
   restart_average(now);
 }
 
-void AlignmentMonitor::see_estimate(const Face& estimate, Time stamp, Time now) {
+void AlignmentMonitor::see_estimate(const TargetEstimate& estimate, Time now) {
   if (!start_) start_ = now;
   if (!found_s_) found_s_ = since_start(now);
   newest_ = estimate;
-  if (!at_rest_ || stamp < rest_since_) return;
-  sum_.mouth += estimate.mouth;
+  if (!at_rest_ || estimate.stamp < rest_since_) return;
+  sum_.mouth += estimate.position;
   sum_.normal += estimate.normal;
   ++count_;
 }
 
 void AlignmentMonitor::see_lamp(const Eigen::Vector3d& center, const Eigen::Vector3d& light,
-                                bool at_rest, Time now) {
+                                bool at_rest, Time stamp, Time now) {
   if (!start_) start_ = now;
   if (!at_rest || !at_rest_) restart_average(now);
   at_rest_ = at_rest;
   if (!truth_) return;
-  const double distance = (center - truth_->mouth).norm();
-  lamp_errors_.push_back({.time_s = since_start(now),
-                          .distance_m = distance,
-                          .direction_error_rad = angle_between(light, -truth_->normal)});
-  if (asked_distance_m_) {
-    lamp_errors_.back().distance_error_m = std::abs(distance - *asked_distance_m_);
-  }
-  if (newest_) {
-    lamp_errors_.back().mouth_error_m = (newest_->mouth - truth_->mouth).norm();
-    lamp_errors_.back().normal_error_rad = angle_between(newest_->normal, truth_->normal);
-  }
+  const Face truth = face_at(*truth_, stamp);
+  const double distance = (center - truth.mouth).norm();
+  LampError& error = lamp_errors_.emplace_back(
+      LampError{.time_s = since_start(now),
+                .distance_m = distance,
+                .direction_error_rad = angle_between(light, -truth.normal)});
+  if (asked_distance_m_) error.distance_error_m = std::abs(distance - *asked_distance_m_);
+  if (!newest_) return;
+  const Face newest = face_at(*newest_, stamp);
+  error.mouth_error_m = (newest.mouth - truth.mouth).norm();
+  error.normal_error_rad = angle_between(newest.normal, truth.normal);
 }
 
 std::optional<EstimateError> AlignmentMonitor::estimate_error() const {
   if (!truth_ || count_ < parameters_.min_frames) return std::nullopt;
-  return EstimateError{.mouth = sum_.mouth / count_ - truth_->mouth,
+  return EstimateError{.mouth = sum_.mouth / count_ - truth_->position,
                        .normal_rad = angle_between(sum_.normal, truth_->normal)};
 }
 

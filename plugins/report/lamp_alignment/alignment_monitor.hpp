@@ -8,22 +8,17 @@
 #include <vector>
 
 #include "armature/values/time.hpp"
+#include "face.hpp"
 #include "report_lamp_alignment_parameters.hpp"
 
 namespace armature::report::lamp_alignment {
-
-/// A mouth and a face normal in the base frame.
-struct Face {
-  Eigen::Vector3d mouth = Eigen::Vector3d::Zero();    // [m]
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();  // unit
-};
 
 /// How far the lamp is from where it should be.
 struct LampError {
   double time_s = 0;  // since the start
   double distance_m = 0, direction_error_rad = 0;
   std::optional<double> distance_error_m;  // none: no goal has asked for a distance yet
-  // Of the newest estimate of the face, whose age is a part of it while the patient moves.
+  // Of the newest estimate of the face, which goes on with its rates as the truth does.
   std::optional<double> mouth_error_m, normal_error_rad;
 };
 
@@ -48,12 +43,12 @@ class AlignmentMonitor {
  public:
   explicit AlignmentMonitor(const Parameters& parameters) : parameters_{parameters} {}
 
-  void see_truth(const Face& truth, Time now);
-  /// An estimate of a picture taken at `stamp`.
-  void see_estimate(const Face& estimate, Time stamp, Time now);
-  /// The lamp's centre and the way its light points, in the base frame.
+  void see_truth(const TargetEstimate& truth, Time now);
+  /// An estimate of a picture taken at its stamp.
+  void see_estimate(const TargetEstimate& estimate, Time now);
+  /// The lamp's centre and the way its light points, in the base frame, at `stamp`.
   void see_lamp(const Eigen::Vector3d& center, const Eigen::Vector3d& light, bool at_rest,
-                Time now);
+                Time stamp, Time now);
   /// A goal: where the lamp's centre shall be, and the mouth that it looks at from there.
   void see_goal(const Eigen::Vector3d& center, const Eigen::Vector3d& mouth) {
     asked_distance_m_ = (center - mouth).norm();
@@ -85,7 +80,7 @@ class AlignmentMonitor {
 
   Parameters parameters_;
   std::optional<Time> start_;
-  std::optional<Face> truth_, newest_;
+  std::optional<TargetEstimate> truth_, newest_;
   Face sum_;  // of the estimates since rest_since_
   int count_ = 0;
   std::optional<double> asked_distance_m_;

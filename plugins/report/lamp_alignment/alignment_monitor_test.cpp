@@ -6,15 +6,19 @@
 namespace armature::report::lamp_alignment {
 namespace {
 
+TargetEstimate standing(const Face& face, Time stamp) {
+  return {.stamp = stamp, .position = face.mouth, .normal = face.normal};
+}
+
 /// A lamp in front of a face, watched at 50 Hz, with an estimate at 10 Hz.
 class AlignmentMonitorTest : public testing::Test {
  protected:
   void run(double duration_s) {
     for (int k = 0; k < static_cast<int>(std::lround(duration_s * 50)); ++k) {
       now_ = now_ + seconds(0.02);
-      monitor_.see_truth(truth_, now_);
-      monitor_.see_lamp(lamp_, light_, at_rest_, now_);
-      if (++ticks_ % 5 == 0 && seen_) monitor_.see_estimate(estimate_, now_, now_);
+      monitor_.see_truth(standing(truth_, now_), now_);
+      monitor_.see_lamp(lamp_, light_, at_rest_, now_, now_);
+      if (++ticks_ % 5 == 0 && seen_) monitor_.see_estimate(standing(estimate_, now_), now_);
       monitor_.see_task(at_rest_);
       monitor_.step(now_);
     }
@@ -99,6 +103,26 @@ TEST_F(AlignmentMonitorTest, HoldsTheNewestEstimateAgainstTheTruth) {
   EXPECT_NEAR(*monitor_.lamp_errors().back().normal_error_rad, std::atan(0.1), 1e-12);
 }
 
+TEST(AlignmentMonitor, BetweenTwoPicturesThePatientGoesOn) {
+  AlignmentMonitor monitor{{}};
+  const Time picture = Time{} + seconds(1), later = picture + seconds(0.05);
+  const TargetEstimate moving{.stamp = picture,
+                              .position = {1.5, 0, 0.5},
+                              .normal = {-1, 0, 0},
+                              .velocity = {0, 0.1, 0},
+                              .normal_rate = {0, 0.2, 0}};
+  monitor.see_truth(moving, picture);
+  monitor.see_estimate(moving, picture);
+  const Eigen::Vector3d mouth = moving.position + Eigen::Vector3d{0, 0.005, 0};
+  const Eigen::Vector3d normal = Eigen::Vector3d{-1, 0.01, 0}.normalized();
+  monitor.see_goal(moving.position + 0.5 * moving.normal, moving.position);
+  monitor.see_lamp(mouth + 0.5 * normal, -normal, false, later, later);
+  const LampError& error = monitor.lamp_errors().back();
+  EXPECT_NEAR(*error.distance_error_m, 0, 1e-12);
+  EXPECT_NEAR(error.direction_error_rad, 0, 1e-9);
+  EXPECT_NEAR(*error.mouth_error_m, 0, 1e-12);
+}
+
 TEST_F(AlignmentMonitorTest, AveragesTheEstimatesAtRestAndNeedsEnoughOfThem) {
   align();
   estimate_.mouth.z() += 0.001;
@@ -150,10 +174,10 @@ TEST(AlignmentMonitor, WaitsForThePatientToMoveWhenTheStorySaysSo) {
     now = now + seconds(0.02);
     const bool moving = k >= 200 && k < 250;
     if (moving) truth.mouth.y() += 0.001;
-    monitor.see_truth(truth, now);
+    monitor.see_truth(standing(truth, now), now);
     monitor.see_goal(truth.mouth + 0.5 * truth.normal, truth.mouth);
-    monitor.see_lamp(truth.mouth + 0.5 * truth.normal, -truth.normal, true, now);
-    if (k % 5 == 0) monitor.see_estimate(truth, now, now);
+    monitor.see_lamp(truth.mouth + 0.5 * truth.normal, -truth.normal, true, now, now);
+    if (k % 5 == 0) monitor.see_estimate(standing(truth, now), now);
     if (k == 220) monitor.see_new_goal();
     monitor.see_task(true);
     monitor.step(now);
@@ -177,10 +201,10 @@ TEST(AlignmentMonitor, AMoveBeforeTheFirstAlignmentIsTheMoveThatTheStoryWaitsFor
   for (int k = 0; k < 300; ++k) {
     now = now + seconds(0.02);
     if (k >= 5 && k < 20) truth.mouth.y() += 0.001;
-    monitor.see_truth(truth, now);
+    monitor.see_truth(standing(truth, now), now);
     monitor.see_goal(truth.mouth + 0.5 * truth.normal, truth.mouth);
-    monitor.see_lamp(truth.mouth + 0.5 * truth.normal, -truth.normal, true, now);
-    if (k % 5 == 0) monitor.see_estimate(truth, now, now);
+    monitor.see_lamp(truth.mouth + 0.5 * truth.normal, -truth.normal, true, now, now);
+    if (k % 5 == 0) monitor.see_estimate(standing(truth, now), now);
     monitor.see_task(true);
     monitor.step(now);
   }

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "face.hpp"
+
 namespace armature::report::lamp_alignment {
 namespace {
 
 constexpr Duration kTimeToComeUp = seconds(1);
-constexpr Duration kOldTruth = seconds(0.2);  // the truth goes on with its rates so long
+constexpr Duration kOldTruth = seconds(0.2);
 
 }  // namespace
 
@@ -23,13 +25,12 @@ void FollowingMonitor::see_lamp(const Eigen::Vector3d& center, const Eigen::Vect
                                 double asked_m, Time stamp) {
   if (!has_held_ || !moves_since_ || stamp - *moves_since_ < kTimeToComeUp) return;
   if (stamp < truth_->stamp || stamp - truth_->stamp > kOldTruth) return;
-  const double passed_s = to_seconds(stamp - truth_->stamp);
-  const Eigen::Vector3d mouth = truth_->position + passed_s * truth_->velocity;
-  const Eigen::Vector3d normal = (truth_->normal + passed_s * truth_->normal_rate).normalized();
-  const Eigen::Vector3d way = mouth - center;
-  const FollowingError is{.spot_m = way.cross(light).norm(),
-                          .distance_m = std::abs(way.norm() - asked_m),
-                          .angle_rad = std::atan2(light.cross(-normal).norm(), light.dot(-normal))};
+  const Face truth = face_at(*truth_, stamp);
+  const Eigen::Vector3d way = truth.mouth - center;
+  const FollowingError is{
+      .spot_m = way.cross(light).norm(),
+      .distance_m = std::abs(way.norm() - asked_m),
+      .angle_rad = std::atan2(light.cross(-truth.normal).norm(), light.dot(-truth.normal))};
   if (!worst_) worst_.emplace();
   worst_->spot_m = std::max(worst_->spot_m, is.spot_m);
   worst_->distance_m = std::max(worst_->distance_m, is.distance_m);

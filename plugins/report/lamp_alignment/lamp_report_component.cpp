@@ -29,10 +29,6 @@ constexpr Duration kPeriod = seconds(0.02);
 constexpr double kAtRest = 1e-7;  // [rad] between two samples of the arm
 constexpr double kDegrees = 180 / std::numbers::pi;
 
-Face face_of(const TargetEstimate& target) {
-  return {.mouth = target.position, .normal = target.normal};
-}
-
 }  // namespace
 
 class LampReport : public Component {
@@ -150,7 +146,7 @@ class LampReport : public Component {
     if (!truth_.latest()) return;
     const auto truth = estimate_of(*truth_.latest());
     if (!truth) return;
-    monitor_.see_truth(face_of(*truth), now);
+    monitor_.see_truth(*truth, now);
     following_.see_truth(*truth);
   }
 
@@ -166,7 +162,7 @@ class LampReport : public Component {
     for (std::size_t i = 0; i < target_.size(); ++i) {
       const auto estimate = estimate_of(target_[i]);
       if (estimate) {
-        monitor_.see_estimate(face_of(*estimate), estimate->stamp, now);
+        monitor_.see_estimate(*estimate, now);
         unfinished_.see_estimate();
       } else {
         unfinished_.see_refusal(stamp_of(target_[i].header_().stamp_()), estimate.error().text);
@@ -214,7 +210,7 @@ class LampReport : public Component {
     if (!heard) return;
     const Eigen::Isometry3d base_T_tool = forward_kinematics(model_, *last_q_);
     const Eigen::Vector3d light = base_T_tool.linear() * light_axis_;
-    monitor_.see_lamp(base_T_tool.translation(), light, at_rest, now);
+    monitor_.see_lamp(base_T_tool.translation(), light, at_rest, last_stamp_, now);
     if (asked_m_) following_.see_lamp(base_T_tool.translation(), light, *asked_m_, last_stamp_);
   }
 

@@ -3,6 +3,13 @@
 // alone; with two cameras what they and the filter see of a face that turns comes on top.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
 
 #include "deployment_run.hpp"
 
@@ -11,9 +18,10 @@ namespace {
 
 struct Move {
   double begins_s = 7, ends_s = 10.2;
+  double turn_deg_s = 10;
 };
 
-/// A patient who moves with 50 mm/s and 10 degrees/s; his speed rises and falls in 0.2 s.
+/// A patient who moves with 50 mm/s and turns; his speed rises and falls in 0.2 s.
 DeploymentRun run_along(int pictures_hz, bool told_the_truth, const Move& move = {}) {
   const double duration_s = move.ends_s - move.begins_s;
   const std::string scene = "components.scene.params.";
@@ -25,7 +33,7 @@ DeploymentRun run_along(int pictures_hz, bool told_the_truth, const Move& move =
       fmt::format("{}move_duration_s={:.3f}", scene, duration_s),
       scene + "move_ramp_s=0.2",
       fmt::format("{}move_mm=[0,{:.3f},0]", scene, 50 * (duration_s - 0.2)),
-      fmt::format("{}move_tilt_side_deg={:.3f}", scene, 10 * (duration_s - 0.2)),
+      fmt::format("{}move_tilt_side_deg={:.3f}", scene, move.turn_deg_s * (duration_s - 0.2)),
       "components.report.params.expect_move=true",
   };
   if (told_the_truth) {
@@ -61,6 +69,45 @@ TEST(LampGoesAlong, WheneverBetweenTwoPicturesHeBegins) {
   for (const double begins_s : {7.03, 7.06, 7.09}) {
     expect_near(run_along(10, false, {.begins_s = begins_s}));
   }
+}
+
+/// One who hardly turns is seen to move by his mouth alone.
+TEST(LampGoesAlong, HoweverMuchHeTurns) {
+  for (const double turn_deg_s : {0., 10. / 3, 20. / 3}) {
+    expect_near(run_along(10, false, {.turn_deg_s = turn_deg_s}));
+  }
+}
+
+/// The distances from the mouth that the table of errors tells from the move on.
+double farthest_from_the_mouth_m(const std::filesystem::path& table, double begins_s) {
+  std::ifstream file{table};
+  std::string line;
+  std::getline(file, line);
+  double farthest = 0;
+  while (std::getline(file, line)) {
+    double time_s = 0, distance_m = 0;
+    if (std::sscanf(line.c_str(), "%lf,%lf", &time_s, &distance_m) == 2 && time_s > begins_s) {
+      farthest = std::max(farthest, distance_m);
+    }
+  }
+  return farthest;
+}
+
+/// A head that turns by 60 degrees within 0.8 s is lost on the way: where it was going to be is not
+/// passed.
+TEST(LampGoesAlong, AHeadThatTurnsAwayFastDoesNotDrawTheLampPastIt) {
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("armature-lamp-" + std::to_string(getpid()));
+  const std::string scene = "components.scene.params.";
+  const DeploymentRun run = run_deployment(
+      {.settings = {kSimulated, scene + "move_at_s=7", scene + "move_duration_s=0.8",
+                    scene + "move_tilt_side_deg=60", "components.report.params.expect_move=true"},
+       .report_folder = folder.string()});
+  EXPECT_EQ(run.status(), "ok") << run.text();
+  const double farthest_m = farthest_from_the_mouth_m(folder / "errors.csv", 7);
+  EXPECT_GT(farthest_m, 0.499);
+  EXPECT_LT(farthest_m, 0.53);
+  std::filesystem::remove_all(folder);
 }
 
 /// While a patient stops he is no longer where his speed in the last picture would have him.

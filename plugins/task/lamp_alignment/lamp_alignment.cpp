@@ -201,6 +201,8 @@ void LampAlignment::come_to_rest(Time now) {
     return;
   }
   if (goals_.state() != GoalState::done) {
+    // After the first approach the arm is near, and goals for where he was would trail him.
+    if (phase_ == Phase::following && may_go_along()) return go_along(now);
     follow_if_moved(now);
     return;
   }

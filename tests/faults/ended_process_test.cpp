@@ -60,6 +60,21 @@ TEST_F(EndedProcess, ByAStepIsAFaultThatNamesTheComponent) {
   EXPECT_THAT(result.err, testing::HasSubstr("armature: " + kEndedInStep + "\n"));
 }
 
+TEST_F(EndedProcess, QuicklyIsTheSame) {
+  const CommandResult result = run("exits_quickly");
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(nlohmann::json::parse(result.out)["reason"],
+            "component 'monitor' ended the process (quick_exit()) in its step");
+}
+
+TEST_F(EndedProcess, NoneBeginsBeforeItIsMadeAndAConstructorThatTakesLongIsNamed) {
+  const CommandResult result = run("takes_long_to_make");
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err,
+              testing::HasSubstr("component 'monitor' has been in its constructor for 5 s"));
+  EXPECT_THAT(result.err, testing::Not(testing::HasSubstr("component 'arm' has been")));
+}
+
 TEST_F(EndedProcess, ByAStepInAnotherProcessIsToldByTheMainOne) {
   const CommandResult result = run("exits", "aside");
   EXPECT_EQ(result.exit_code, 1);

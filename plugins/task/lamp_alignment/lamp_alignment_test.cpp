@@ -65,6 +65,19 @@ TEST_F(LampAlignmentTest, GoesAlongWithAPatientWhoMovesAndHoldsWhereHeStops) {
   EXPECT_NEAR((*goals_.back().focus - mouth_).norm(), 0, 0.002);
 }
 
+TEST_F(LampAlignmentTest, GoesAlongAlsoWhenItHasBegunToGoToWhereHeWas) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  mouth_.y() += 0.015;  // as an estimate tells it that takes him to be still
+  ASSERT_TRUE(run_until(Phase::following, 1));
+  ASSERT_EQ(goals_.back().mode, MotionMode::planned);
+  velocity_ = {0, 0.05, 0};
+  for (int k = 0; k < 25; ++k) {
+    mouth_ += 0.02 * velocity_;
+    tick();
+  }
+  EXPECT_EQ(goals_.back().mode, MotionMode::tracking) << "before the planned way is at its end";
+}
+
 TEST_F(LampAlignmentTest, StopsWhenAFaceThatItGoesAlongWithIsSeenNoMore) {
   ASSERT_TRUE(run_until(Phase::holding, 15));
   velocity_ = {0, 0.05, 0};

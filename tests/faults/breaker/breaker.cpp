@@ -25,6 +25,9 @@ class Breaker final : public Component {
     setup.activate_every(seconds(0.02));
     if (parameters_.breaks == Parameters::Breaks::crashes_when_made) std::raise(SIGSEGV);
     if (parameters_.breaks == Parameters::Breaks::exits_when_made) std::exit(0);
+    if (parameters_.breaks == Parameters::Breaks::takes_long_to_make) {
+      std::this_thread::sleep_for(std::chrono::seconds{6});
+    }
   }
   ~Breaker() override {
     if (parameters_.breaks == Parameters::Breaks::crashes_at_its_end) std::raise(SIGSEGV);
@@ -52,6 +55,7 @@ class Breaker final : public Component {
       std::this_thread::sleep_for(std::chrono::duration<double>{parameters_.hangs});
     if (breaks == crashes) std::raise(SIGSEGV);
     if (breaks == exits) std::exit(0);
+    if (breaks == exits_quickly) std::quick_exit(0);
     if (breaks == prints) {
       std::printf("[printed\n");
       std::cout << "[streamed" << std::endl;

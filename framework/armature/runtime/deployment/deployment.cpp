@@ -12,6 +12,7 @@
 
 #include "armature/config/problems.hpp"
 #include "armature/runtime/deployment/description.hpp"
+#include "armature/runtime/deployment/slow_constructor.hpp"
 #include "armature/runtime/deployment/tried_together.hpp"
 #include "armature/runtime/deployment_file/injected_fault.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
@@ -138,6 +139,7 @@ void Deployment::make_scheduler() {
 void Deployment::make_runner(const ComponentConfig& component, PluginRegistry& plugins,
                              config::Problems& problems) {
   const RunningComponent running{component.name, "constructor"};
+  const SlowConstructor slow{component.name, print_note_};
   // Outlives the exceptions that its code throws, and the slots that it makes.
   const auto library = plugins.load(*component.manifest, Component::kKind);
   auto runner = std::make_unique<ComponentRunner>(component.name, component.plugin_id,

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cstdlib>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -16,14 +17,17 @@ namespace {
 
 std::atomic<ExitGuard*> g_youngest{nullptr};
 
+/// In place of an exit code, which quick_exit() tells nobody.
+constexpr int kQuickExit = std::numeric_limits<int>::min();
+
 std::string text_of_exit(int code) {
+  const std::string how = code == kQuickExit ? "quick_exit()" : fmt::format("exit code {}", code);
   const RunningCode running = running_code();
   if (!running.name) {
-    return fmt::format(
-        "the process was ended by exit() (exit code {}) outside of a component's step", code);
+    return fmt::format("the process was ended ({}) outside of a component's step", how);
   }
-  return fmt::format("{} '{}' ended the process (exit code {}) in its {}", running.what,
-                     running.name, code, running.phase);
+  return fmt::format("{} '{}' ended the process ({}) in its {}", running.what, running.name, how,
+                     running.phase);
 }
 
 }  // namespace
@@ -37,7 +41,9 @@ ExitGuard::ExitGuard(std::function<void(const std::string&)> tell)
 ExitGuard::~ExitGuard() { g_youngest = outer_; }
 
 void ExitGuard::go_first() {
-  if (::on_exit(on_exit, nullptr) != 0) throw std::runtime_error("no memory for an exit handler");
+  const bool known = ::on_exit(on_exit, nullptr) == 0 &&
+                     std::at_quick_exit([] { on_exit(kQuickExit, nullptr); }) == 0;
+  if (!known) throw std::runtime_error("no memory for an exit handler");
 }
 
 void ExitGuard::on_exit(int code, void* /*data*/) {

@@ -8,13 +8,13 @@
 
 namespace armature ARMATURE_EXPORT {
 
-/// Tells, while it exists, who ends this process with exit(): a plugin must not, as nothing would
-/// come to rest and the exit code would be the plugin's. Of several the youngest tells. It does not
-/// see _exit() and quick_exit(), nor what a forked child does.
+/// Tells, while it exists, who ends this process with exit() or quick_exit(): a plugin must not, as
+/// nothing would come to rest and the exit code would be the plugin's. Of several the youngest
+/// tells. It does not see _exit(), nor what a forked child does.
 class ExitGuard {
  public:
   /// `tell` gets "component 'camera' ended the process (exit code 0) in its step", on the thread
-  /// that called exit() while all others run on; then the process ends with exit code 1, and
+  /// that called it while all others run on; then the process ends with exit code 1, and
   /// nothing more of it runs. `tell` flushes what it writes.
   explicit ExitGuard(std::function<void(const std::string& what)> tell);
   ~ExitGuard();

@@ -22,6 +22,12 @@ namespace {
 namespace fs = std::filesystem;
 using Eigen::Vector3d;
 
+/// How the numbers of pixels lie in their 16 bits.
+struct PixelBits {
+  int stored = 16, high = 15;
+  bool is_signed = false;
+};
+
 /// A slice of 4 x 3 pixels, whose first pixel is 100 times its number; lengths in millimetres.
 struct Slice {
   int number = 0;
@@ -33,6 +39,8 @@ struct Slice {
   int of_acquisition = 0;
   int columns = 4, rows = 3;
   std::vector<Uint16> pixels;  // none: 100 times its number, counted up
+  PixelBits bits;
+  std::string slope = "2", intercept = "-1024";
 };
 
 class DicomSeries : public testing::Test {
@@ -56,8 +64,8 @@ class DicomSeries : public testing::Test {
     put(DCM_ImagePositionPatient, numbers(slice.position));
     put(DCM_ImageOrientationPatient, numbers(slice.along_row) + "\\" + numbers(slice.along_column));
     put(DCM_PixelSpacing, slice.spacing);
-    put(DCM_RescaleSlope, "2");
-    put(DCM_RescaleIntercept, "-1024");
+    put(DCM_RescaleSlope, slice.slope);
+    put(DCM_RescaleIntercept, slice.intercept);
     if (!slice.gantry_tilt.empty()) put(DCM_GantryDetectorTilt, slice.gantry_tilt);
     if (slice.of_acquisition > 0) {
       put(DCM_ImagesInAcquisition, std::to_string(slice.of_acquisition));
@@ -68,9 +76,9 @@ class DicomSeries : public testing::Test {
     number(DCM_Rows, slice.rows);
     number(DCM_Columns, slice.columns);
     number(DCM_BitsAllocated, 16);
-    number(DCM_BitsStored, 16);
-    number(DCM_HighBit, 15);
-    number(DCM_PixelRepresentation, 0);
+    number(DCM_BitsStored, slice.bits.stored);
+    number(DCM_HighBit, slice.bits.high);
+    number(DCM_PixelRepresentation, slice.bits.is_signed ? 1 : 0);
     number(DCM_SamplesPerPixel, 1);
     std::vector<Uint16> pixels = slice.pixels;
     for (int i = 0; pixels.size() < 12; ++i) {
@@ -150,6 +158,47 @@ TEST_F(DicomSeries, OfAHeadIsTheVolumeThatItWasWrittenFrom) {
     ASSERT_NEAR(volume->voxels[i], head.voxels[i], 1) << i;  // a step of the file is two
   }
   EXPECT_NEAR(hounsfield_at(*volume, {-0.003, 0.024, 0.015}), 1000, 1);
+}
+
+TEST_F(DicomSeries, OfTwelveSignedBitsHasAirBelowAndBoneAboveZero) {
+  Slice slice;
+  slice.bits = {.stored = 12, .high = 11, .is_signed = true};
+  slice.slope = "1";
+  slice.intercept = "0";
+  slice.pixels = {0x0C18, 0x0FFF, 0x0800, 0x07FF, 0x0000, 0x0001};  // two's complement of 12 bits
+  write_series(3, slice);
+  const auto volume = read_volume(folder_);
+  ASSERT_TRUE(volume) << volume.error().text;
+  EXPECT_EQ(std::vector<std::int16_t>(volume->voxels.begin(), volume->voxels.begin() + 6),
+            (std::vector<std::int16_t>{-1000, -1, -2048, 2047, 0, 1}));
+}
+
+TEST_F(DicomSeries, WithAnOverlayInTheUnusedBitsHasTheDensitiesOfTheOthers) {
+  Slice slice;
+  slice.bits = {.stored = 12, .high = 11};
+  slice.slope = "1";
+  slice.pixels = {0x1000 | 24, 0x8000 | 1024, 0x0FFF, 0xF000, 0xFFFF, 7};
+  write_series(3, slice);
+  const auto volume = read_volume(folder_);
+  ASSERT_TRUE(volume) << volume.error().text;
+  EXPECT_EQ(std::vector<std::int16_t>(volume->voxels.begin(), volume->voxels.begin() + 6),
+            (std::vector<std::int16_t>{-1000, 0, 3071, -1024, 3071, -1017}));
+  slice.bits.is_signed = true;
+  write_series(3, slice);
+  EXPECT_EQ(read_volume(folder_)->at(2, 0, 0), -1025) << "signed: all bits above are its sign";
+}
+
+TEST_F(DicomSeries, WhosePixelsAreNotInTheLowestBitsIsRefused) {
+  Slice slice;
+  slice.bits = {.stored = 12, .high = 15};
+  write_series(3, slice);
+  EXPECT_EQ(refusal(), "/slice00.dcm': its High Bit is 15; of 12 Bits Stored it must be 11");
+  slice.bits = {.stored = 17, .high = 16};
+  write_series(3, slice);
+  EXPECT_EQ(refusal(), "/slice00.dcm': its Bits Stored is 17; 1 to 16 are read");
+  slice.bits = {.stored = 0, .high = 0};
+  write_series(3, slice);
+  EXPECT_EQ(refusal(), "/slice00.dcm': its Bits Stored is 0; 1 to 16 are read");
 }
 
 TEST_F(DicomSeries, OfATiltedGantryIsRefused) {

@@ -54,9 +54,45 @@ class Tags {
   std::string missing_;
 };
 
-/// Pixels as they are stored, of 16 bits; `is_signed` as Pixel Representation says.
-Expected<void> read_pixels(DcmDataset& data, bool is_signed, double slope, double intercept,
-                           DicomSlice& slice) {
+/// What becomes of a pixel's 16 bits, and how many of them are its number (DICOM PS3.5,
+/// section 8.1.1).
+struct PixelFormat {
+  int bits_stored = 16;
+  bool is_signed = false;  // two's complement
+  double slope = 1, intercept = 0;
+
+  /// Bits above the stored ones are left out: old files keep overlays there.
+  double hounsfield(std::uint16_t pixel) const {
+    const int unused = 16 - bits_stored;
+    const auto raised = static_cast<std::uint16_t>(pixel << unused);
+    const int stored = is_signed ? static_cast<std::int16_t>(raised) >> unused : raised >> unused;
+    return slope * stored + intercept;
+  }
+};
+
+Expected<PixelFormat> pixel_format_of(Tags& tags) {
+  const PixelFormat format{
+      .bits_stored = tags.integer(DCM_BitsStored, "Bits Stored"),
+      .is_signed = tags.integer(DCM_PixelRepresentation, "Pixel Representation") == 1,
+      .slope = tags.number(DCM_RescaleSlope, 0, "Rescale Slope"),
+      .intercept = tags.number(DCM_RescaleIntercept, 0, "Rescale Intercept")};
+  const int allocated = tags.integer(DCM_BitsAllocated, "Bits Allocated");
+  const int high = tags.integer(DCM_HighBit, "High Bit");
+  if (!tags.missing().empty()) return refuse(fmt::format("it has no {}", tags.missing()));
+  if (allocated != 16) {
+    return refuse(fmt::format("it has {} bits a pixel; 16 are read", allocated));
+  }
+  if (format.bits_stored < 1 || format.bits_stored > allocated) {
+    return refuse(fmt::format("its Bits Stored is {}; 1 to 16 are read", format.bits_stored));
+  }
+  if (high != format.bits_stored - 1) {
+    return refuse(fmt::format("its High Bit is {}; of {} Bits Stored it must be {}", high,
+                              format.bits_stored, format.bits_stored - 1));
+  }
+  return format;
+}
+
+Expected<void> read_pixels(DcmDataset& data, const PixelFormat& format, DicomSlice& slice) {
   const std::size_t needed =
       static_cast<std::size_t>(slice.rows) * static_cast<std::size_t>(slice.columns);
   const Uint16* pixels = nullptr;
@@ -67,8 +103,7 @@ Expected<void> read_pixels(DcmDataset& data, bool is_signed, double slope, doubl
   }
   slice.hounsfield.resize(needed);
   for (std::size_t i = 0; i < needed; ++i) {
-    const double stored = is_signed ? static_cast<std::int16_t>(pixels[i]) : pixels[i];
-    const double value = slope * stored + intercept;
+    const double value = format.hounsfield(pixels[i]);
     if (!(std::abs(value) <= 32767)) {
       return refuse(fmt::format("pixel {} is {:g}, which is no Hounsfield unit", i, value));
     }
@@ -96,16 +131,12 @@ Expected<DicomSlice> slice_of(DcmDataset& data) {
   slice.along_column = tags.vector(DCM_ImageOrientationPatient, 3, "Image Orientation (Patient)");
   slice.row_step = tags.number(DCM_PixelSpacing, 0, "Pixel Spacing");
   slice.column_step = tags.number(DCM_PixelSpacing, 1, "Pixel Spacing");
-  const double slope = tags.number(DCM_RescaleSlope, 0, "Rescale Slope");
-  const double intercept = tags.number(DCM_RescaleIntercept, 0, "Rescale Intercept");
-  const int bits = tags.integer(DCM_BitsAllocated, "Bits Allocated");
-  const int sign = tags.integer(DCM_PixelRepresentation, "Pixel Representation");
-  if (!tags.missing().empty()) return refuse(fmt::format("it has no {}", tags.missing()));
-  if (bits != 16) return refuse(fmt::format("it has {} bits a pixel; 16 are read", bits));
+  const auto format = pixel_format_of(tags);
+  if (!format) return tl::unexpected{format.error()};
   slice.gantry_tilt_deg = tags.optional_number(DCM_GantryDetectorTilt).value_or(0);
   Sint32 slices = 0;
   if (data.findAndGetSint32(DCM_ImagesInAcquisition, slices).good()) slice.of_acquisition = slices;
-  if (auto read = read_pixels(data, sign == 1, slope, intercept, slice); !read) {
+  if (auto read = read_pixels(data, *format, slice); !read) {
     return tl::unexpected{read.error()};
   }
   return slice;

@@ -41,7 +41,8 @@ class StereoPair final : public Component {
 
  private:
   void take(Side side, const Input<msg::Image>& raw, Time now);
-  void publish(const MatchedPair& matched);
+  void publish(const MatchedPair& matched, Time now);
+  std::string why_unusable(Side side, const Expected<ImageView>& view) const;
   void publish_info(Time stamp);
   void publish_picture(Side side, const ImageView& raw, Time stamp);
   bool is_missed(std::size_t side, Time now) const;
@@ -58,9 +59,13 @@ class StereoPair final : public Component {
   std::array<std::optional<Time>, 2> heard_;  // of each camera; at first when it was waited for
   std::array<bool, 2> missed_{};  // when the pictures were turned off, and not heard since
   bool was_off_ = false;
-  std::optional<Time> unpaired_at_, refused_at_, told_;
+  struct Refusal {
+    Time at;
+    std::string reason;
+  };
+  std::optional<Time> unpaired_at_, told_;
+  std::optional<Refusal> refusal_;  // the last one
   std::uint64_t pairs_ = 0, refused_ = 0;
-  std::string refusal_;
   Duration max_skew_{0};
 };
 
@@ -92,10 +97,7 @@ void StereoPair::step(Time now) {
   take(Side::left, left_raw_, now);
   take(Side::right, right_raw_, now);
   while (const auto matched = matcher_.next()) {
-    if (off) continue;
-    refusal_.clear();
-    publish(*matched);
-    if (!refusal_.empty()) refused_at_ = now;
+    if (!off) publish(*matched, now);
   }
   if (matcher_.unpaired() > unpaired) unpaired_at_ = now;
   tell(now);
@@ -110,20 +112,22 @@ void StereoPair::take(Side side, const Input<msg::Image>& raw, Time now) {
   }
 }
 
-void StereoPair::publish(const MatchedPair& matched) {
+/// Empty: a picture can be rectified.
+std::string StereoPair::why_unusable(Side side, const Expected<ImageView>& view) const {
+  if (!view) return fmt::format("{}: {}", name_of(side), view.error().text);
+  const StereoCamera& camera = pair_.camera();
+  if (view->width == camera.width && view->height == camera.height) return {};
+  return fmt::format("the {} picture has {} x {} pixels, and the calibration is of {} x {}",
+                     name_of(side), view->width, view->height, camera.width, camera.height);
+}
+
+void StereoPair::publish(const MatchedPair& matched, Time now) {
   std::array<ImageView, 2> views;
   for (const auto& [side, picture] :
        {std::pair{Side::left, &matched.left}, {Side::right, &matched.right}}) {
-    const auto& message = *static_cast<const msg::Image*>(picture->picture.message());
-    const auto view = image_of(message);
-    if (!view) {
-      refusal_ = fmt::format("{}: {}", name_of(side), view.error().text);
-    } else if (view->width != pair_.camera().width || view->height != pair_.camera().height) {
-      refusal_ = fmt::format("the {} picture has {} x {} pixels, and the calibration is of {} x {}",
-                             name_of(side), view->width, view->height, pair_.camera().width,
-                             pair_.camera().height);
-    }
-    if (!refusal_.empty()) {
+    const auto view = image_of(*static_cast<const msg::Image*>(picture->picture.message()));
+    if (std::string reason = why_unusable(side, view); !reason.empty()) {
+      refusal_ = {.at = now, .reason = std::move(reason)};
       ++refused_;
       return;
     }
@@ -162,8 +166,8 @@ std::string StereoPair::trouble(Time now) const {
     return fmt::format("no picture of the {} camera for {:g} s", name_of(side),
                        parameters_.timeout);
   }
-  if (refused_at_ && now - *refused_at_ < kTellEvery) {
-    return fmt::format("{}; pairs refused: {}", refusal_, refused_);
+  if (refusal_ && now - refusal_->at < kTellEvery) {
+    return fmt::format("{}; pairs refused: {}", refusal_->reason, refused_);
   }
   if (unpaired_at_ && now - *unpaired_at_ < kTellEvery) {
     const auto distance = matcher_.last_distance();

@@ -311,6 +311,30 @@ TEST_F(StereoPairTest, PicturesOfAnotherSizeOrEncodingAreRefusedCountedAndTold) 
   EXPECT_EQ(pair.figures().metrics.at("refused_pairs"), 2);
 }
 
+TEST_F(StereoPairTest, ARefusalIsToldWithItsReasonForASecondWhateverPairsCome) {
+  ComponentHarness pair{built_plugins(), options()};
+  const auto send_small = [&](double at_s) {
+    msg::Image small = picture(Time{} + seconds(at_s));
+    small.height_() = 400;
+    pair.send("left_raw", small);
+    pair.send("right_raw", picture(Time{} + seconds(at_s)));
+  };
+  for (const double now : {1.0, 1.9}) {
+    send_small(now);
+    pair.step(now);
+  }
+  send(pair, 2.05, 2.05);
+  pair.step(2.05);
+  EXPECT_FALSE(is_well(pair)) << "a second long";
+  EXPECT_EQ(pair.status().reason,
+            "the left picture has 640 x 400 pixels, and the calibration is of 640 x 480; pairs "
+            "refused: 2");
+  EXPECT_EQ(pair.take<msg::Image>("left_image").size(), 1U);
+  send(pair, 2.95, 2.95);
+  pair.step(2.95);
+  EXPECT_TRUE(is_well(pair));
+}
+
 constexpr const char* kRig =
     "{armature_rig: 1, name: head, resolution: [640, 480], focal_px: 524.25, principal_point_px: "
     "[319.2, 241.3], baseline_mm: 118.06, mount: {frame: tool, forward: [1, 0, 0], right: [0, 0, "

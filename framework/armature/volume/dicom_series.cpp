@@ -17,8 +17,12 @@ namespace fs = std::filesystem;
 Expected<Volume> read_dicom_series(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
-  for (const auto& entry : fs::directory_iterator{folder, error}) {
-    if (entry.is_regular_file(error) && is_dicom_image(entry.path())) files.push_back(entry.path());
+  for (fs::directory_iterator entry{folder, error}; !error && entry != fs::directory_iterator{};
+       entry.increment(error)) {
+    std::error_code none;  // a link that leads nowhere is no slice
+    if (entry->is_regular_file(none) && is_dicom_image(entry->path())) {
+      files.push_back(entry->path());
+    }
   }
   if (error) return refuse(fmt::format("'{}': {}", folder.string(), error.message()));
   if (files.empty()) return refuse(fmt::format("'{}': it holds no DICOM files", folder.string()));

@@ -13,6 +13,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "armature/volume/dicom_series.hpp"
 #include "armature/volume/phantom.hpp"
 #include "armature/volume/read_volume.hpp"
 
@@ -278,6 +279,21 @@ TEST_F(DicomSeries, WithATruncatedFileIsRefusedByItsName) {
     EXPECT_EQ(text.find("/slice01.dcm': it "), 0u) << cut << ": " << text;
     EXPECT_TRUE(cut > 30 || text.find("truncated?") != std::string::npos) << cut << ": " << text;
   }
+}
+
+TEST_F(DicomSeries, IsReadWhateverLinksLeadNowhereBesideItsSlices) {
+  write_series(3);
+  // A folder is read in an order of its own: with so many, one of them is most likely the last.
+  for (int i = 0; i < 64; ++i) {
+    fs::create_symlink("nowhere", folder_ / fmt::format("link{}", i));
+  }
+  EXPECT_EQ(refusal(), "read");
+}
+
+TEST_F(DicomSeries, OfAFolderThatCannotBeReadIsRefusedWithTheReason) {
+  const auto volume = read_dicom_series(folder_ / "none");
+  EXPECT_EQ(volume.error().text,
+            "'" + (folder_ / "none").string() + "': No such file or directory");
 }
 
 TEST_F(DicomSeries, OfOneSliceOrNoneIsNoVolume) {

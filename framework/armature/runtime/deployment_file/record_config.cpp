@@ -20,7 +20,8 @@ std::filesystem::path RecordConfig::file_of(std::string_view process, Time start
   gmtime_r(&second, &utc);
   std::array<char, 4096> name{};
   const std::size_t size = std::strftime(name.data(), name.size(), file.c_str(), &utc);
-  return part_of(std::string{name.data(), size}, process);
+  // The folder comes last: a '%' in it says no time.
+  return part_of(config::folder_of(origin) / std::string_view{name.data(), size}, process);
 }
 
 std::filesystem::path RecordConfig::part_of(std::filesystem::path main_file,
@@ -36,7 +37,7 @@ RecordConfig read_record(const config::Node& section, config::Problems& problems
   const std::string file = map.text("file");
   const config::Node* named = section.find("file");
   record.origin = named ? named->origin() : section.origin();
-  record.file = config::folder_of(record.origin) / file;
+  record.file = file;
   if (!file.empty() && record.file.extension() != ".mcap") {
     map.problem("file", fmt::format("{} is no name of a recording: they end in .mcap",
                                     config::in_quotes(file)));

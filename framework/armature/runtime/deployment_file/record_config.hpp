@@ -17,12 +17,12 @@ struct ComponentConfig;
 
 /// `record:` of a deployment file: what a run keeps of itself, to be replayed.
 struct RecordConfig {
-  std::filesystem::path file;       // may say the time, UTC, as strftime does: "%Y%m%d-%H%M%S.mcap"
+  std::filesystem::path file;  // as written; may say the time, UTC, by strftime: "%Y%m%d-%H%M.mcap"
   std::vector<std::string> topics;  // "/dental_lamp/*" for all that begin so; empty: all
   bool compress = true;
   bool thin = false;                      // only as much as a page of the run shows, no activations
   std::optional<Duration> around_faults;  // only so long before and after one
-  config::Origin origin;                  // of the file's name
+  config::Origin origin;                  // of the file's name, which begins in its folder
 
   /// Where `process` of a run that began at `start` (Unix time) writes: every process but "main"
   /// has a file of its own, "run.vision.mcap".

@@ -8,6 +8,8 @@
 #include <optional>
 #include <string>
 
+#include "armature/config/document.hpp"
+
 namespace armature {
 namespace {
 
@@ -39,6 +41,23 @@ TEST(RecordConfig, NamesNoTwoTimesOfTheNightWhenSummerTimeEndsTheSame) {
   EXPECT_EQ(record.file_of("main", summer), "fault-20261025-003000.mcap");
   EXPECT_EQ(record.file_of("main", winter), "fault-20261025-013000.mcap");
   EXPECT_EQ(record.file_of("vision", winter), "fault-20261025-013000.vision.mcap");
+}
+
+/// Of a file `lamp.yaml` in `folder`.
+RecordConfig record_of(const std::string& folder, const std::string& text) {
+  config::Problems problems;
+  RecordConfig record = read_record(config::parse_text(text, folder + "/lamp.yaml"), problems);
+  problems.throw_if_any();
+  return record;
+}
+
+TEST(RecordConfig, TakesPercentSignsOfItsFolderAsTheyAreAndThoseOfTheNameForTheTime) {
+  const Time start{1'792'888'200'000'000'000};  // 2026-10-25 00:30:00 UTC
+  const RecordConfig record = record_of("/tmp/100%done", "file: runs/100%%-%Y-%d.mcap");
+  EXPECT_EQ(record.file_of("main", start), "/tmp/100%done/runs/100%-2026-25.mcap");
+  EXPECT_EQ(record.file_of("vision", start), "/tmp/100%done/runs/100%-2026-25.vision.mcap");
+  EXPECT_EQ(record_of("/tmp/100%done", "file: /var/lamp-%Y.mcap").file_of("main", start),
+            "/var/lamp-2026.mcap");
 }
 
 }  // namespace

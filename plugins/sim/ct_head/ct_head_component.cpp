@@ -2,9 +2,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 #include "armature/kinds/volume_messages.hpp"
 #include "armature/kinds/zone_messages.hpp"
@@ -27,6 +32,24 @@ Anatomy anatomy_of(const msg::NeedlePlan& plan) {
   return anatomy;
 }
 
+/// Makes a file that nobody else may read, under a name that nobody can guess: in a folder where
+/// everybody may write, a link of somebody else would wait under another one.
+Expected<fs::path> new_temporary_file(const std::string& component) {
+  constexpr std::string_view kExtension = ".nrrd";
+  std::error_code error;
+  const fs::path folder = fs::temp_directory_path(error);
+  if (error)
+    return refuse(fmt::format("no folder for temporary files (TMPDIR): {}", error.message()));
+  std::string file = folder / fmt::format("armature-{}-XXXXXX{}", component, kExtension);
+  const int descriptor = mkstemps(file.data(), static_cast<int>(kExtension.size()));
+  if (descriptor < 0) {
+    return refuse(fmt::format("'{}' cannot be written: {}; is TMPDIR right?", file,
+                              std::generic_category().message(errno)));
+  }
+  close(descriptor);
+  return file;
+}
+
 }  // namespace
 
 /// Scans the first head that it is told of.
@@ -36,22 +59,25 @@ class CtHeadComponent final : public Component {
       : Component{setup},
         parameters_{Parameters::read(setup.params())},
         seed_{setup.seed()},
-        file_{parameters_.file.empty()
-                  ? fs::temp_directory_path() /
-                        fmt::format("armature-{}-{}.nrrd", getpid(), setup.name())
-                  : fs::path{parameters_.file}},
+        name_{setup.name()},
+        file_{parameters_.file},
         anatomy_{setup.input<msg::NeedlePlan>("anatomy")},
         volume_{setup.output<msg::VolumeFile>("volume")} {}
 
   ~CtHeadComponent() override {
     std::error_code error;
-    if (scanned_ && parameters_.file.empty()) fs::remove(file_, error);
+    if (parameters_.file.empty() && !file_.empty()) fs::remove(file_, error);
   }
 
   void step(Time now) override {
     if (scanned_ || !anatomy_.latest()) return;
     const auto volume = scan(anatomy_of(*anatomy_.latest()), parameters_, seed_);
     if (!volume) return degraded(volume.error().text);
+    if (file_.empty()) {
+      auto made = new_temporary_file(name_);
+      if (!made) return degraded(made.error().text);
+      file_ = std::move(*made);
+    }
     if (const auto written = write_nrrd(*volume, file_); !written) {
       return degraded(written.error().text);
     }
@@ -69,7 +95,8 @@ class CtHeadComponent final : public Component {
  private:
   Parameters parameters_;
   std::uint64_t seed_;
-  fs::path file_;
+  std::string name_;
+  fs::path file_;  // empty: none was made yet
   bool scanned_ = false;
   Input<msg::NeedlePlan> anatomy_;
   Output<msg::VolumeFile> volume_;

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The tomograph on its topics: scans once, and its file goes with it.
+// The tomograph on its topics: scans once, and its file is its owner's and goes with it.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <functional>
+#include <string>
 
 #include "armature/kinds/volume_messages.hpp"
 #include "armature/messages/geometry.hpp"
@@ -41,6 +45,46 @@ TEST(CtHeadComponent, ScansTheFirstHeadOnceAndSaysWhereTheVolumeIs) {
   EXPECT_NEAR(hounsfield_at(*volume, {0.09, 0, 0}), 2500, 50);
   head.reset();
   EXPECT_FALSE(std::filesystem::exists(files[0].path_()));
+}
+
+TEST(CtHeadComponent, ItsTemporaryFileIsItsOwnersAndNoLinkOfAnotherStandsInForIt) {
+  namespace fs = std::filesystem;
+  const auto scanned = [](const std::function<void(const fs::path&)>& look) {
+    ComponentHarness head{built_plugins(), kCoarse};
+    head.send("anatomy", told_anatomy());
+    head.step(0.1);
+    look(head.take<msg::VolumeFile>("volume").at(0).path_());
+  };
+  fs::path first;
+  scanned([&](const fs::path& file) {
+    first = file;
+    EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
+    EXPECT_EQ(file.extension(), ".nrrd");
+  });
+  ASSERT_FALSE(fs::exists(first));
+  const fs::path precious = first.string() + ".precious";
+  std::ofstream{precious} << "of the user";
+  fs::create_symlink(precious, first);
+  scanned([&](const fs::path& file) { EXPECT_NE(file, first); });
+  EXPECT_EQ(fs::file_size(precious), std::string{"of the user"}.size());
+  fs::remove(first);
+  fs::remove(precious);
+}
+
+TEST(CtHeadComponent, SaysWhyItHasNoTemporaryFile) {
+  ComponentHarness head{built_plugins(), kCoarse};
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before ? before : "";
+  setenv("TMPDIR", "/nowhere", 1);
+  head.send("anatomy", told_anatomy());
+  head.step(0.1);
+  before ? setenv("TMPDIR", kept.c_str(), 1) : unsetenv("TMPDIR");
+  EXPECT_TRUE(head.take<msg::VolumeFile>("volume").empty());
+  EXPECT_EQ(head.status().reason,
+            "no folder for temporary files (TMPDIR): No such file or directory");
+  head.send("anatomy", told_anatomy());
+  head.step(0.2);
+  EXPECT_EQ(head.take<msg::VolumeFile>("volume").size(), 1u);
 }
 
 TEST(CtHeadComponent, AFileThatIsWrittenToIsNotTheVolumeThatWasAnnounced) {

@@ -36,17 +36,17 @@ TEST(PerceptionCases, AreAsManyAsAskedAndAtLeastOneOfEachGroup) {
 }
 
 TEST(PerceptionCases, OfFewerPairsAreTheFirstOfMoreAndFollowTheSeed) {
-  auto few = by_group(64), many = by_group(640), other = by_group(64, 2);
+  const auto few = by_group(64), many = by_group(640), other = by_group(64, 2);
   for (const auto& [group, cases] : few) {
     SCOPED_TRACE(group);
     for (std::size_t i = 0; i < cases.size(); ++i) {
-      const PerceptionCase& same = many[group][i];
+      const PerceptionCase& same = many.at(group).at(i);
       EXPECT_EQ(cases[i].number, static_cast<int>(i));
       EXPECT_TRUE(cases[i].left_T_face.matrix() == same.left_T_face.matrix());
       EXPECT_EQ(cases[i].face_seed, same.face_seed);
       EXPECT_EQ(cases[i].noise_seed, same.noise_seed);
       EXPECT_EQ(cases[i].brightness, same.brightness);
-      EXPECT_FALSE(cases[i].left_T_face.matrix() == other[group][i].left_T_face.matrix());
+      EXPECT_FALSE(cases[i].left_T_face.matrix() == other.at(group).at(i).left_T_face.matrix());
     }
   }
 }
@@ -69,14 +69,14 @@ TEST(PerceptionCases, HaveAHeadThatBothCamerasSee) {
 }
 
 TEST(PerceptionCases, AreWhatTheNameOfTheirGroupSays) {
-  auto groups = by_group(640);
-  for (const auto& one : groups["yaw 30 to 45 deg"]) {
+  const auto groups = by_group(640);
+  for (const auto& one : groups.at("yaw 30 to 45 deg")) {
     const Eigen::Vector3d forward = one.left_T_face.linear().col(2);
     const double yaw = std::abs(std::atan2(forward.x(), forward.z())) / kDegree;
     EXPECT_GE(yaw, 29);
     EXPECT_LE(yaw, 46);
   }
-  for (const auto& one : groups["distance 700 to 1200 mm"]) {
+  for (const auto& one : groups.at("distance 700 to 1200 mm")) {
     EXPECT_GE(one.left_T_face.translation().z(), 0.7);
     EXPECT_LE(one.left_T_face.translation().z(), 1.2);
   }
@@ -87,10 +87,10 @@ TEST(PerceptionCases, AreWhatTheNameOfTheirGroupSays) {
       EXPECT_EQ(traits.has_beard, group == "with a beard") << group;
     }
   }
-  for (const auto& one : groups["mask"]) EXPECT_EQ(one.staging.occluder, scene::Occluder::mask);
-  for (const auto& one : groups["baseline 60 mm"]) EXPECT_EQ(one.camera.baseline_m, 0.06);
-  for (const auto& one : groups["640 x 480 px"]) EXPECT_EQ(one.camera.width, 640);
-  for (const auto& one : groups["right late, face moved 3 to 15 mm"]) {
+  for (const auto& one : groups.at("mask")) EXPECT_EQ(one.staging.occluder, scene::Occluder::mask);
+  for (const auto& one : groups.at("baseline 60 mm")) EXPECT_EQ(one.camera.baseline_m, 0.06);
+  for (const auto& one : groups.at("640 x 480 px")) EXPECT_EQ(one.camera.width, 640);
+  for (const auto& one : groups.at("right late, face moved 3 to 15 mm")) {
     EXPECT_TRUE(one.left_shows.matrix() == one.left_T_face.matrix());
     const double late = (one.right_shows.translation() - one.left_T_face.translation()).norm();
     EXPECT_GE(late, 0.003);
@@ -99,10 +99,10 @@ TEST(PerceptionCases, AreWhatTheNameOfTheirGroupSays) {
 }
 
 TEST(PerceptionCases, ThatAreTrackedContinueAndMoveLittle) {
-  auto groups = by_group(3200);
+  const auto groups = by_group(3200);
   for (const char* group : {"tracked", "tracked, frames lost, flicker"}) {
     SCOPED_TRACE(group);
-    const auto& cases = groups[group];
+    const auto& cases = groups.at(group);
     int sequences = 0, repeated = 0;
     for (std::size_t i = 0; i < cases.size(); ++i) {
       sequences += !cases[i].continues;
@@ -126,8 +126,8 @@ TEST(PerceptionCases, ThatAreTrackedContinueAndMoveLittle) {
 }
 
 TEST(PerceptionCases, WhatBeginsInASequenceBeginsAfterItsSoundPairsAndStays) {
-  auto groups = by_group(8 * static_cast<int>(case_groups().size()));
-  const auto& rolled = groups["tracked, then right rolled"];
+  const auto groups = by_group(8 * static_cast<int>(case_groups().size()));
+  const auto& rolled = groups.at("tracked, then right rolled");
   ASSERT_EQ(rolled.size(), 8U);
   for (const PerceptionCase& one : rolled) {
     EXPECT_EQ(one.right.roll != 0, one.number >= kSoundPairs) << one.number;

@@ -10,10 +10,10 @@
 
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_summary.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "record/record.hpp"
-#include "record/recorded_processes.hpp"
 #include "standard_output.hpp"
 
 namespace armature {

@@ -12,12 +12,12 @@
 #include "armature/recording/hash_chain.hpp"
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_writer.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 #include "armature/runtime/reporting/draft.hpp"
 #include "exit_code.hpp"
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
-#include "record/recorded_processes.hpp"
 #include "standard_output.hpp"
 
 namespace armature {

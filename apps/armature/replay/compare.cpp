@@ -12,10 +12,10 @@
 
 #include "armature/config/document.hpp"
 #include "armature/messages/stamp.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
-#include "record/recorded_processes.hpp"
 #include "replay/field_differences.hpp"
 #include "replay/replay.hpp"
 #include "replay/replayed_process.hpp"

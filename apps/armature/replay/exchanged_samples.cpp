@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "armature/recording/mcap_reader.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
-#include "record/recorded_processes.hpp"
 
 namespace armature {
 namespace {

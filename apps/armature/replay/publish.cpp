@@ -18,11 +18,11 @@
 #include "armature/bus/transport.hpp"
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_summary.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
-#include "record/recorded_processes.hpp"
 #include "replay/recorded_qos.hpp"
 #include "standard_output.hpp"
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "armature/config/document.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 
 namespace armature {

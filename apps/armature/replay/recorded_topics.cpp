@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "armature/config/problems.hpp"
-#include "record/recorded_processes.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "replay/recorded_qos.hpp"
 #include "watch/outsider.hpp"
 

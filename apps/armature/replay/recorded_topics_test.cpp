@@ -12,8 +12,8 @@
 #include <random>
 #include <thread>
 
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/recording/recording_test.hpp"
-#include "armature/runtime/recording/recorded_description.hpp"
 
 namespace armature {
 namespace {

@@ -28,6 +28,7 @@
 #include "armature/recording/hash_chain.hpp"
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_writer.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/recording/page_rate.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
@@ -36,7 +37,6 @@
 #include "jpeg_encoder.hpp"
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
-#include "record/recorded_processes.hpp"
 #include "standard_output.hpp"
 #include "verbs/shipped_configs.hpp"
 

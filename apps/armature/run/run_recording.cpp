@@ -11,11 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "record/merge.hpp"
 #include "record/record.hpp"
-#include "record/recorded_processes.hpp"
 #include "report/report.hpp"
 
 namespace armature {

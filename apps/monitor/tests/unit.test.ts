@@ -2,6 +2,7 @@
 // The parts of the page that need no browser.
 import assert from 'node:assert/strict';
 import {test} from 'node:test';
+import {McapWriter} from '@mcap/core';
 
 import type {Component} from '../src/deployment';
 import {numericFields, valueAt} from '../src/message/fields';
@@ -12,6 +13,7 @@ import {parseExpression} from '../src/plot/expression';
 import {clock, marksOf} from '../src/panels/time_scale';
 import {Playhead} from '../src/playhead';
 import {Playback} from '../src/source/playback';
+import {openRecording} from '../src/source/recording_file';
 import {Store} from '../src/store';
 
 const messages: Record<string, unknown> = {
@@ -238,4 +240,43 @@ test('components stand in the order of the flow, whatever circles there are', ()
   ]);
   assert.deepEqual(edges.map(({from, to}) => `${from}>${to}`).sort(), ['arm>camera', 'arm>task', 'camera>task', 'task>arm']);
   assert.ok(order.indexOf('camera') < order.indexOf('task'));
+});
+
+/// A recording in which "vision" has what it got from "main" on /image, too; `processes` have recorded.
+async function recordingOf(processes: string[]): Promise<Uint8Array> {
+  const bytes: number[] = [];
+  const writer = new McapWriter({
+    writable: {position: () => BigInt(bytes.length), write: async (more) => { bytes.push(...more); }},
+    chunkSize: 1,
+  });
+  await writer.start({profile: 'ros2', library: 'test'});
+  for (const process of processes) {
+    await writer.addMetadata({name: 'armature.process', metadata: new Map([['process', process]])});
+  }
+  const schemaId = await writer.registerSchema({name: 'std_msgs/msg/String', encoding: 'ros2msg', data: new Uint8Array()});
+  const channel = (topic: string, metadata: [string, string][]) =>
+      writer.registerChannel({schemaId, topic, messageEncoding: 'cdr', metadata: new Map(metadata)});
+  const sent = await channel('/image', []), got = await channel('/image', [['from', 'main']]), other = await channel('/face', []);
+  let sequence = 0;
+  for (const [channelId, t, byte] of [[sent, 1, 1], [got, 1.5, 1], [other, 2, 7], [sent, 3, 2], [got, 3.5, 2]] as const) {
+    const logTime = BigInt(t * 1e9);
+    await writer.addMessage({channelId, sequence: ++sequence, logTime, publishTime: logTime, data: new Uint8Array([byte])});
+  }
+  await writer.end();
+  return new Uint8Array(bytes);
+}
+test('a sample that two processes have recorded is counted and shown once', async () => {
+  const shown = async (bytes: Uint8Array) => {
+    const file = await openRecording(new Blob([bytes as BlobPart]), 'run.mcap'), seen: string[] = [];
+    for await (const {topic, t, bytes: data} of file.read(new Set(['/image', '/face']), -Infinity, Infinity)) seen.push(`${topic} ${t} ${data[0]}`);
+    assert.equal(file.messages, seen.length);
+    assert.equal(file.topics.get('/image')!.count! + file.topics.get('/face')!.count!, seen.length);
+    return {seen, wasEnded: file.remark === ''};
+  };
+  const once = ['/image 1 1', '/face 2 7', '/image 3 2'];
+  const joined = await recordingOf(['main', 'vision']);
+  assert.deepEqual(await shown(joined), {seen: once, wasEnded: true});
+  assert.deepEqual(await shown(joined.slice(0, -9)), {seen: once, wasEnded: false});
+  const alone = await recordingOf(['vision']);
+  assert.equal((await shown(alone)).seen.length, 5, 'what came from a process that is not in it is all there is');
 });

@@ -14,6 +14,7 @@
 
 #include "armature/messages/stamp.hpp"
 #include "armature/recording/mcap_summary.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/plugins/setup_error.hpp"
 
 namespace armature::camera::images {
@@ -79,6 +80,9 @@ RecordedPictures::RecordedPictures(std::filesystem::path file, std::string left,
     if (const auto summary = read_summary(file_)) {
       left_ = topic_of(*summary, file_, "left_topic", left_);
       right_ = topic_of(*summary, file_, "right_topic", right_);
+      processes_ = processes_of(summary->metadata);
+    } else {
+      processes_ = recorded_processes(file_);
     }
     reader_ = std::make_unique<McapReader>(file_);
   } catch (const SetupError&) {
@@ -90,6 +94,7 @@ RecordedPictures::RecordedPictures(std::filesystem::path file, std::string left,
 
 std::optional<pictures::Side> RecordedPictures::side_of(const McapMessage& message) const {
   if (!has_pictures(reader_->schemas(), *message.channel)) return std::nullopt;
+  if (is_doubled(*message.channel, processes_)) return std::nullopt;
   if (is_named(message.channel->topic, left_)) return pictures::Side::left;
   if (is_named(message.channel->topic, right_)) return pictures::Side::right;
   return std::nullopt;

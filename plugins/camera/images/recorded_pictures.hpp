@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "armature/recording/mcap_reader.hpp"
 #include "picture_source.hpp"
@@ -13,6 +14,7 @@
 namespace armature::camera::images {
 
 /// The pictures of two topics of an MCAP file: sensor_msgs/Image, or sensor_msgs/CompressedImage.
+/// Of a recording that was joined it plays each once, as the process that sent it has recorded it.
 class RecordedPictures final : public pictures::PictureSource {
  public:
   /// `left` and `right` are whole names of topics, or their last words: "left/image_raw" of
@@ -31,6 +33,7 @@ class RecordedPictures final : public pictures::PictureSource {
 
   std::filesystem::path file_;
   std::string left_, right_;
+  std::vector<std::string> processes_;  // whose recordings are in the file
   std::unique_ptr<McapReader> reader_;
   std::optional<Time> last_left_;
   Duration last_interval_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of a recording: 1. both topics are found by their last words, and every message of them
-// is played with its own stamp, 2. what is wrong with the file or a message is told.
+// is played with its own stamp, once also where two processes have recorded it, 2. what is wrong
+// with the file or a message is told.
 #include "recorded_pictures.hpp"
 
 #include <gtest/gtest.h>
@@ -8,6 +9,7 @@
 #include <functional>
 
 #include "armature/messages/header.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/recording/recording_test.hpp"
 #include "armature/runtime/plugins/setup_error.hpp"
 
@@ -85,6 +87,42 @@ TEST_F(RecordedPicturesTest, PlaysBothTopicsWithTheirOwnTimesAgainAndAgain) {
     EXPECT_EQ(pictures.remark(), "");
     pictures.rewind();
   }
+}
+
+TEST_F(RecordedPicturesTest, OfAJoinedRecordingPlaysEachPictureOnce) {
+  const auto write_joined = [&](const std::vector<std::string>& processes) {
+    write([&](McapWriter& writer) {
+      for (const std::string& process : processes) {
+        writer.add(McapMetadata{.name = std::string{kProcessMetadata},
+                                .values = {{kProcessKey, process}}});
+      }
+      const std::uint16_t got = writer.add(McapChannel{.schema_id = 1,
+                                                       .topic = "/lamp/left/image_raw",
+                                                       .message_encoding = "cdr",
+                                                       .metadata = {{kFromKey, "main"}}});
+      for (const double at : {1.0, 1.1, 1.2}) {
+        put(writer, left_, grey_image(at, 10), at);
+        put(writer, got, grey_image(at, 10), at);
+        put(writer, right_, grey_image(at, 20), at);
+        writer.end_chunk();
+      }
+    });
+  };
+  const auto played = [&] {
+    RecordedPictures pictures{file_.path(), "left/image_raw", "right/image_raw"};
+    std::string sides;
+    while (const auto picture = pictures.next()) {
+      sides += picture->side == pictures::Side::left ? 'l' : 'r';
+    }
+    EXPECT_EQ(pictures.last_interval(), seconds(0.1));
+    return sides;
+  };
+  write_joined({"main", "vision"});
+  EXPECT_EQ(played(), "lrlrlr");
+  file_.replace(file_.bytes().substr(0, file_.bytes().size() - 8));
+  EXPECT_EQ(played(), "lrlrlr") << "cut off: its summary says nothing";
+  write_joined({"vision"});
+  EXPECT_EQ(played(), "llrllrllr") << "what came from a process that is not in it is all there is";
 }
 
 TEST_F(RecordedPicturesTest, NamesTheTopicsThatHavePicturesWhereNoneIsMeant) {

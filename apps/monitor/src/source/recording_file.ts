@@ -63,18 +63,49 @@ function info(channel: McapTypes.Channel, schema: McapTypes.Schema | undefined):
   };
 }
 
-function indexed(reader: McapIndexedReader, name: string): RecordingFile {
-  const statistics = reader.statistics!;
-  const topics = new Map<string, TopicInfo>();
-  for (const channel of reader.channelsById.values()) {
-    const topic = topics.get(channel.topic) ?? info(channel, reader.schemasById.get(channel.schemaId));
-    topic.count! += Number(statistics.channelMessageCounts.get(channel.id) ?? 0n);
-    topics.set(channel.topic, topic);
+/// The process whose recording stands in the file; there are several when files were joined.
+const processOf = ({name, metadata}: McapTypes.Metadata) =>
+    name === 'armature.process' ? metadata.get('process') : undefined;
+
+/// What one process got from others whose recordings are in the file, too, would be shown twice.
+function isDoubled(channel: McapTypes.Channel, processes: ReadonlySet<string | undefined>): boolean {
+  const from = channel.metadata.get('from');
+  return from !== undefined && from.split(',').every((process) => processes.has(process));
+}
+
+interface Contents {
+  topics: Map<string, TopicInfo>;
+  topicOf: Map<number, string>;  // of the channels that are shown
+  messages: number;
+}
+
+function contentsOf(
+    channels: Iterable<McapTypes.Channel>, schemas: ReadonlyMap<number, McapTypes.Schema>,
+    counts: ReadonlyMap<number, number | bigint>, metadata: McapTypes.Metadata[]): Contents {
+  const processes = new Set(metadata.map(processOf));
+  const contents: Contents = {topics: new Map(), topicOf: new Map(), messages: 0};
+  for (const channel of channels) {
+    if (isDoubled(channel, processes)) continue;
+    const topic = contents.topics.get(channel.topic) ?? info(channel, schemas.get(channel.schemaId));
+    const count = Number(counts.get(channel.id) ?? 0);
+    topic.count! += count;
+    contents.messages += count;
+    contents.topics.set(channel.topic, topic);
+    contents.topicOf.set(channel.id, channel.topic);
   }
+  return contents;
+}
+
+async function indexed(reader: McapIndexedReader, name: string): Promise<RecordingFile> {
+  const statistics = reader.statistics!;
+  const metadata: McapTypes.Metadata[] = [];
+  for await (const one of reader.readMetadata()) metadata.push(one);
+  const {topics, topicOf, messages} = contentsOf(
+      reader.channelsById.values(), reader.schemasById, statistics.channelMessageCounts, metadata);
   return {
     name,
     topics,
-    messages: Number(statistics.messageCount),
+    messages,
     start: seconds(statistics.messageStartTime),
     end: seconds(statistics.messageEndTime),
     remark: '',
@@ -85,8 +116,10 @@ function indexed(reader: McapIndexedReader, name: string): RecordingFile {
         endTime: nanoseconds(to),
       });
       for await (const message of all) {
+        const topic = topicOf.get(message.channelId);
+        if (topic === undefined) continue;
         yield {
-          topic: reader.channelsById.get(message.channelId)!.topic,
+          topic,
           t: seconds(message.logTime),
           bytes: message.data.slice(),  // of a chunk that need not stay
         };
@@ -106,29 +139,26 @@ async function* recordsOf(file: Blob): AsyncGenerator<McapTypes.TypedMcapRecord,
 async function streamed(file: Blob, name: string, why: string): Promise<RecordingFile> {
   const channels = new Map<number, McapTypes.Channel>();
   const schemas = new Map<number, McapTypes.Schema>();
-  const topics = new Map<string, TopicInfo>();
-  let messages = 0, start = Infinity, end = -Infinity, damage = '';
+  const counts = new Map<number, number>();
+  const metadata: McapTypes.Metadata[] = [];
+  let start = Infinity, end = -Infinity, damage = '';
   try {
     for await (const record of recordsOf(file)) {
       if (record.type === 'Schema') schemas.set(record.id, record);
-      if (record.type === 'Channel') {
-        channels.set(record.id, record);
-        if (!topics.has(record.topic)) {
-          topics.set(record.topic, info(record, schemas.get(record.schemaId)));
-        }
-      }
+      if (record.type === 'Channel') channels.set(record.id, record);
+      if (record.type === 'Metadata') metadata.push(record);
       if (record.type !== 'Message') continue;
       const t = seconds(record.logTime);
       start = Math.min(start, t);
       end = Math.max(end, t);
-      ++messages;
-      topics.get(channels.get(record.channelId)?.topic ?? '')!.count! += 1;
+      counts.set(record.channelId, (counts.get(record.channelId) ?? 0) + 1);
     }
   } catch (error) {
-    if (messages === 0) throw error;
+    if (counts.size === 0) throw error;
     damage = `; behind that it is damaged: ${(error as Error).message}`;
   }
-  if (messages === 0) throw new Error(why);
+  if (counts.size === 0) throw new Error(why);
+  const {topics, topicOf, messages} = contentsOf(channels.values(), schemas, counts, metadata);
   return {
     name,
     topics,
@@ -140,9 +170,10 @@ async function streamed(file: Blob, name: string, why: string): Promise<Recordin
       try {
         for await (const record of recordsOf(file)) {
           if (record.type !== 'Message') continue;
-          const topic = channels.get(record.channelId)?.topic ?? '';
+          const topic = topicOf.get(record.channelId);
           const t = seconds(record.logTime);
-          if (wanted.has(topic) && t >= from && t <= to) yield {topic, t, bytes: record.data.slice()};
+          if (topic === undefined || !wanted.has(topic) || t < from || t > to) continue;
+          yield {topic, t, bytes: record.data.slice()};
         }
       } catch {
         return;  // told already

@@ -12,14 +12,9 @@ namespace armature ARMATURE_EXPORT {
 
 /// Names of the metadata in a recording.
 inline constexpr std::string_view kDeploymentMetadata = "armature.deployment";
-inline constexpr std::string_view kProcessMetadata = "armature.process";
 inline constexpr std::string_view kComponentMetadata = "armature.component";
 inline constexpr std::string_view kEndMetadata = "armature.end";    // missing: it was cut off
 inline constexpr std::string_view kPartMetadata = "armature.part";  // of files that were joined
-/// Keys of a channel's metadata: the process that recorded it, and of samples that came from other
-/// processes of the deployment the names of these, "vision,arm".
-inline constexpr const char* kProcessKey = "process";
-inline constexpr const char* kFromKey = "from";
 /// Key of a channel with samples of one writer in another process: they have the numbers that it
 /// gave them, and so have those that its own process recorded.
 inline constexpr const char* kNumberedKey = "numbered";

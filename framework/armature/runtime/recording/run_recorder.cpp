@@ -14,6 +14,7 @@
 #include "armature/messages/ros_definition.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/messages/stamp.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/execution/real_time_thread.hpp"
 #include "armature/runtime/plugins/processor_level.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"

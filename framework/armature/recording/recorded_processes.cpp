@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "record/recorded_processes.hpp"
+#include "armature/recording/recorded_processes.hpp"
 
 #include <algorithm>
 #include <sstream>
 
 #include "armature/recording/mcap_reader.hpp"
-#include "armature/runtime/recording/recorded_description.hpp"
 
 namespace armature {
 

@@ -12,6 +12,7 @@
 #include "asker.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
+#include "tests/terminal.hpp"
 
 namespace armature::test {
 namespace {
@@ -167,12 +168,45 @@ TEST_F(OperatorTest, TypesHisWords) {
   ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
   const CommandResult dialogue =
       run_command(biopsy("operator"), {.environment = {}, .input = "go\nc\nb\n"}, kAtMost);
-  EXPECT_EQ(dialogue.exit_code, 0) << "the end of the input ends the dialogue, not the run";
+  EXPECT_EQ(dialogue.exit_code, kUsage) << "as of --say go";
   EXPECT_THAT(dialogue.out, HasSubstr("approach      waits for confirm"));
   EXPECT_THAT(dialogue.err, HasSubstr("'go' is no word of an operator"));
   EXPECT_TRUE(run.wait_for_err("the operator says confirm approach", kAtMost)) << run.err();
   EXPECT_TRUE(run.wait_for_err("the operator says back", kAtMost)) << run.err();
-  EXPECT_FALSE(ends_within(run.pid(), std::chrono::seconds{0}));
+  EXPECT_FALSE(ends_within(run.pid(), std::chrono::seconds{0}))
+      << "the end of the input ends the dialogue, not the run";
+}
+
+TEST_F(OperatorTest, IsHeardWhereTheLastLineOfAFileHasNoEnd) {
+  Command run{operated_biopsy(), {}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
+  const CommandResult dialogue =
+      run_command(biopsy("operator"), {.environment = {}, .input = "abort"}, kAtMost);
+  EXPECT_EQ(dialogue.exit_code, 0) << dialogue.err;
+  EXPECT_TRUE(run.wait_for_err("the operator says abort", kAtMost)) << run.err();
+  EXPECT_EQ(run.finish(kAtMost).exit_code, 1) << "it was broken off";
+}
+
+TEST_F(OperatorTest, OfAFileTheExitCodeIsTheWorstOfItsWords) {
+  Command run{operated_biopsy(), {}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
+  const CommandResult dialogue =
+      run_command(biopsy("operator"), {.environment = {}, .input = "resume\npause\n"}, kAtMost);
+  EXPECT_EQ(dialogue.exit_code, kRefused);
+  EXPECT_THAT(dialogue.err, HasSubstr("'resume' was refused"));
+  EXPECT_TRUE(run.wait_for_err("the operator says pause", kAtMost)) << run.err();
+}
+
+TEST_F(OperatorTest, AtATerminalNothingIsSaidWithoutEnterAndARefusalWasSeen) {
+  Command run{operated_biopsy(), {}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
+  Terminal dialogue{biopsy("operator")};
+  ASSERT_TRUE(dialogue.shows("c(onfirm) 'approach'"));
+  dialogue.type("resume\n");
+  ASSERT_TRUE(dialogue.shows("'resume' was refused"));
+  dialogue.type("abort\x04\x04\x04");  // the end of the input, by Control and D
+  EXPECT_EQ(dialogue.exit_code(), 0);
+  EXPECT_THAT(run.err(), Not(HasSubstr("the operator says abort")));
 }
 
 TEST_F(OperatorTest, WhereNothingRunsHeIsToldSo) {

@@ -139,39 +139,42 @@ class Dialogue {
     std::fflush(standard_output());
   }
 
-  /// Shows every change, and says what is typed, until the end of input.
+  /// Shows every change, and says what is typed, until the end of input. Who sits at a terminal has
+  /// seen what became of his words: kOk. A script is told the worst of it.
   int listen() {
     if (!options_.json) {
       print_out("a word or its letter, and Enter: {}; q leaves, and changes nothing\n",
                 fmt::join(kOperatorWords, ", "));
     }
+    int worst = kOk;
     std::string line;
     for (bool told = false; !g_left;) {
       show_if_changed();
       if (link_.tasks().size() > 1 && !std::exchange(told, true)) is_ambiguous();
       if (!read_line(line)) continue;
-      if (line == "q" || ended_) return kOk;
-      const std::string word = word_of(line);
-      if (word.empty()) {
-        if (!line.empty()) fmt::print(stderr, "armature: '{}' is no word of an operator\n", line);
-        continue;
-      }
-      answer(word);
+      if (line == "q" || ended_) break;
+      worst = std::max(worst, answer(line));
     }
-    return kOk;
+    return is_terminal_ ? kOk : worst;
   }
 
  private:
-  /// Says a word that was typed. A confirmation is of the step that stands on the screen, whatever
-  /// waits by now.
-  void answer(const std::string& word) {
-    if (word != "confirm") {
-      say(word, "");
-    } else if (const auto step = question_.confirmed(Steady::now())) {
-      say(word, *step);
-    } else {
-      fmt::print(stderr, "armature: {}\n", terminal_text(step.error().text));
-    }
+  /// What has become of a line that was typed: the exit code that it has as --say.
+  int answer(const std::string& line) {
+    if (line.empty()) return kOk;
+    const std::string word = word_of(line);
+    if (word == "confirm") return confirm();
+    if (!word.empty()) return say(word, "");
+    fmt::print(stderr, "armature: '{}' is no word of an operator\n", line);
+    return kUsage;
+  }
+
+  /// A confirmation is of the step that stands on the screen, whatever waits by now.
+  int confirm() {
+    const auto step = question_.confirmed(Steady::now());
+    if (step) return say("confirm", *step);
+    fmt::print(stderr, "armature: {}\n", terminal_text(step.error().text));
+    return kFailed;
   }
 
   /// Which of several is the task cannot be known: nothing is said to any of them.
@@ -197,16 +200,18 @@ class Dialogue {
     return false;
   }
 
-  /// True when a line was typed, or none will be any more.
+  /// True when a line was typed, or none will be any more. The last line of a file needs no end; at
+  /// a terminal nothing is said without Enter.
   bool read_line(std::string& line) {
     pollfd input{.fd = STDIN_FILENO, .events = POLLIN, .revents = 0};
     if (poll(&input, 1, static_cast<int>(kAskAgain.count())) <= 0) return false;
     char letter = 0;
-    if (read(STDIN_FILENO, &letter, 1) <= 0) return ended_ = true;
-    if (letter != '\n') {
+    const ssize_t count = read(STDIN_FILENO, &letter, 1);
+    if (count > 0 && letter != '\n') {
       typed_ += letter;
       return false;
     }
+    ended_ = count < 0 || (count == 0 && (is_terminal_ || typed_.empty()));
     line = std::exchange(typed_, {});
     return true;
   }
@@ -217,6 +222,7 @@ class Dialogue {
   std::mt19937_64 ids_{std::random_device{}()};
   std::string shown_, typed_;
   ShownQuestion question_;
+  const bool is_terminal_ = isatty(STDIN_FILENO) == 1;
   bool ended_ = false;
 };
 

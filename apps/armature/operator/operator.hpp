@@ -22,7 +22,8 @@ struct OperatorOptions {
 /// `armature operator`: shows the steps of a running deployment's task and says the operator's
 /// words to it, one or as they are typed. What is typed confirms the step that was shown last; a
 /// single "confirm" needs the name of its step where a task asks about several. Exit code 1 when a
-/// word was refused, 5 when no task was found or none answered.
+/// word was refused, 5 when no task was found or none answered; of words that are read from a file
+/// or a pipe the highest, with 2 for one that is none.
 int be_operator(const OperatorOptions& options);
 
 }  // namespace armature

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature record`: what runs is in a file afterwards, whatever ends the recording.
 #include <gmock/gmock.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -23,6 +24,7 @@ using nlohmann::json;
 using ::testing::Contains;
 using ::testing::ContainsRegex;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr std::chrono::seconds kEnough{60};
 
@@ -206,6 +208,33 @@ TEST_F(Recorded, AFullDiskIsToldAndEndsTheRecording) {
                                            {}, kEnough);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(result.err, "armature: cannot write '/dev/full': No space left on device\n");
+}
+
+TEST_F(Recorded, OnADiskThatFillsUpWhatStandsInTheFileIsCountedAndMadeWhole) {
+  std::vector<std::string> command{"/bin/sh", "-c", "trap '' XFSZ; exec \"$@\"", "sh"};
+  for (const std::string& word : record({})) command.push_back(word);
+  Command recording{command};
+  const auto give_up = std::chrono::steady_clock::now() + kEnough;
+  while (!fs::exists(file_) || fs::file_size(file_) < 50'000) {
+    ASSERT_LT(std::chrono::steady_clock::now(), give_up) << recording.err() << run_.err();
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  const rlim_t full = fs::file_size(file_) + 20'000;
+  const rlimit limit{.rlim_cur = full, .rlim_max = full};
+  ASSERT_EQ(prlimit(recording.pid(), RLIMIT_FSIZE, &limit, nullptr), 0);
+  const CommandResult result = recording.finish(kEnough);
+  EXPECT_EQ(result.exit_code, 1);
+  const std::string readable = std::to_string(all_messages(info(file_, 1)));
+  EXPECT_THAT(result.err,
+              ContainsRegex("armature: cannot write '" + file_ + "': File too large; " + readable +
+                            " messages stand in the file and [1-9][0-9]* do not; those that do are "
+                            "readable, and made whole by: armature record --repair"));
+  EXPECT_THAT(result.err, Not(HasSubstr("came faster")));
+  const std::string whole = folder_ / "whole.mcap";
+  const CommandResult repaired =
+      run_command({armature(), "record", "--repair", file_, "-o", whole});
+  EXPECT_EQ(repaired.exit_code, 0) << repaired.err;
+  EXPECT_EQ(std::to_string(all_messages(info(whole, 0))), readable);
 }
 
 TEST(RecordedFile, IsNotStandardOutput) {

@@ -116,10 +116,11 @@ int record_topics(const RecordOptions& options) {
     recorder.close();
   } catch (const std::runtime_error& error) {
     if (recorder.messages() == 0) throw;
-    throw std::runtime_error(fmt::format(
-        "{}; what was written before is readable, and made whole by: armature record --repair {} "
-        "-o whole.mcap",
-        error.what(), options.out.string()));
+    throw std::runtime_error(
+        fmt::format("{}; {} messages stand in the file and {} do not; those that do are readable, "
+                    "and made whole "
+                    "by: armature record --repair {} -o whole.mcap",
+                    error.what(), recorder.messages(), recorder.unwritten(), options.out.string()));
   }
   if (options.json) {
     std::uint64_t dropped = 0, lost = 0;

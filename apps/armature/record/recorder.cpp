@@ -37,6 +37,14 @@ void Recorder::attach_new(const ObservedSample& description, Time arrived) {
   attach_description(told, arrived, queue_);
 }
 
+std::uint64_t Recorder::unwritten() const {
+  const std::scoped_lock lock{mutex_};
+  std::uint64_t unwritten = 0;
+  for (const auto& [topic, channel] : channels_) unwritten += channel.messages;
+  for (const auto& [channel, count] : queue_.dropped()) unwritten -= count;
+  return unwritten - queue_.messages();
+}
+
 std::map<std::string, std::uint64_t> Recorder::lost() const {
   const std::scoped_lock lock{mutex_};
   return lost_;

@@ -26,12 +26,16 @@ class Recorder {
   /// Writes what waits, and ends the file. Throws std::runtime_error.
   void close() { queue_.close(); }
 
+  /// Those that stand in the file, after close() or when it has thrown.
   std::uint64_t messages() const { return queue_.messages(); }
+  /// Those that came to be written and do not stand in the file, though they did not come too fast:
+  /// it could not be written any more.
+  std::uint64_t unwritten() const;
   std::uint64_t bytes() const { return queue_.bytes(); }
   /// The last hash of the file's chain, after close().
   std::string head() const { return queue_.head(); }
   std::size_t topics() const { return channels_.size(); }
-  /// The number of samples that were dropped, by topic.
+  /// The number of samples that came faster than they could be written, by topic.
   std::map<std::string, std::uint64_t> dropped() const;
   /// The number of samples that were sent and did not arrive, by topic.
   std::map<std::string, std::uint64_t> lost() const;

@@ -73,7 +73,8 @@ void McapQueue::put(Item item, std::size_t bytes) {
       return waiting_bytes_ + bytes <= kMaxWaiting || waiting_.empty() || !problem_.empty();
     };
     if (when_full_ == WhenFull::wait) space_.wait(lock, has_space);
-    if (!has_space() || !problem_.empty()) {
+    if (!problem_.empty()) return;
+    if (!has_space()) {
       if (const auto* message = std::get_if<Message>(&item)) ++dropped_[message->channel];
       return;
     }

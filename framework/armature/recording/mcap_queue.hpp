@@ -60,12 +60,14 @@ class McapQueue {
 
   /// Why it cannot write any more; empty: all is well.
   std::string problem() const;
-  /// The number of messages that were dropped, by channel.
+  /// The number of messages that came faster than they could be written, by channel. What comes
+  /// after a problem is not among them.
   std::map<std::uint16_t, std::uint64_t> dropped() const;
   /// Writes what waits, and ends the file. Throws std::runtime_error.
   void close();
   // After `close`, or when it has thrown:
-  std::uint64_t messages() const { return messages_; }
+  /// Those that stand in files, also in one that could not be ended.
+  std::uint64_t messages() const { return messages_ + (writer_ ? writer_->messages_in_file() : 0); }
   std::uint64_t bytes() const { return bytes_; }
   /// The last hash of the last file's chain; empty: there is none.
   const std::string& head() const { return head_; }

@@ -250,6 +250,7 @@ void McapWriter::end_chunk() {
   }
   const std::uint64_t index_length = bytes.size() - chunk_length;
   put_hashed(bytes);
+  messages_in_file_ = messages_;
   put_link();
 
   Bytes& index = chunk_indexes_.emplace_back();

@@ -55,6 +55,8 @@ class McapWriter {
   /// Where it stands.
   const std::filesystem::path& file() const { return file_; }
   std::uint64_t messages() const { return messages_; }
+  /// Those of them whose chunk stands in the file: readable, whatever becomes of the rest.
+  std::uint64_t messages_in_file() const { return messages_in_file_; }
   std::uint64_t bytes() const { return position_; }
   /// How many links of the chain stand in the file, and the hash of the last one. After close() it
   /// tells the whole file from every other.
@@ -90,7 +92,7 @@ class McapWriter {
   Options options_;
   int descriptor_ = -1;
   bool broken_ = false;
-  std::uint64_t position_ = 0, messages_ = 0;
+  std::uint64_t position_ = 0, messages_ = 0, messages_in_file_ = 0;
   std::uint32_t crc_ = 0;  // of all that stands in the file
   Time first_, last_;
   std::optional<HashChain> chain_;

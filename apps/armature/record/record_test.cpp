@@ -95,6 +95,23 @@ TEST(DamagedRecording, IsNamedInTheOneThatWasMadeOfIt) {
   EXPECT_EQ(told.at("sha256"), sha256_of_file(file.path()));
 }
 
+TEST(DamagedRecording, OnAFullDiskIsNotRepairedAtTheCostOfTheFileThatWasThere) {
+  const RecordingFile file{"damaged"}, older{"older"};
+  {
+    McapWriter writer{file.path(), {.compress = false, .chunk_bytes = 1024}};
+    write_all_but_the_end(writer, 1000);
+  }
+  older.replace("an older recording");
+  {
+    const FileSizeLimit limit{4096};
+    EXPECT_THROW(repair_recording(file.path(), older.path(), true), std::runtime_error);
+  }
+  EXPECT_EQ(older.bytes(), "an older recording");
+  for (const auto& entry : std::filesystem::directory_iterator{older.path().parent_path()}) {
+    EXPECT_FALSE(entry.path().string().starts_with(older.path().string() + ".")) << entry.path();
+  }
+}
+
 /// A recording as a process leaves it: so many messages, one a millisecond from `first_ms` on.
 void write_part(const std::filesystem::path& file, const std::string& process, int first_ms,
                 const std::string& run = "1") {

@@ -6,6 +6,7 @@
 #include "armature/recording/hash_chain.hpp"
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_writer.hpp"
+#include "armature/runtime/reporting/draft.hpp"
 #include "exit_code.hpp"
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
@@ -36,13 +37,15 @@ int repair_recording(const std::filesystem::path& cut, const std::filesystem::pa
   }
   refuse_to_replace(whole, force);
   McapReader reader{cut, true};
-  McapWriter writer{whole, {.library = "armature " ARMATURE_VERSION}};
+  Draft draft{whole, "repairing"};  // a full disk takes nothing that was there
+  McapWriter writer{draft.path(), {.library = "armature " ARMATURE_VERSION}};
   MessageCopy copy{reader, writer};
   while (const auto message = reader.next()) copy.write(*message);
   for (const McapAttachment& attachment : reader.attachments()) writer.attach(attachment);
   for (const McapMetadata& metadata : reader.metadata()) writer.add(metadata);
   writer.add(repaired_from(cut, reader));
   writer.close();
+  draft.give_name();
   for (const std::string& problem : reader.problems()) {
     fmt::print(stderr, "armature: '{}': {}\n", cut.string(), problem);
   }

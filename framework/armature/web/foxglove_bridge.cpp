@@ -112,9 +112,7 @@ void FoxgloveBridge::opened(Client client, std::string_view protocol) {
   }
   server_.send(client, json_text(info));
   std::vector<const Channel*> all;
-  for (const auto& [id, channel] : channels_) {
-    if (channel.is_there) all.push_back(&channel);
-  }
+  for (const auto& [id, channel] : channels_) all.push_back(&channel);
   advertise(all, client);
   if (options_.playback) tell_playback(false);
 }
@@ -168,7 +166,7 @@ void FoxgloveBridge::subscribe(Client client, std::uint32_t subscription,
                                std::uint32_t channel_id) {
   Subscriber& subscriber = clients_.at(client);
   const auto channel = channels_.find(channel_id);
-  if (channel == channels_.end() || !channel->second.is_there) {
+  if (channel == channels_.end()) {
     return send_error(client, fmt::format("there is no channel {}", channel_id));
   }
   if (subscriber.channels.contains(subscription)) {
@@ -212,37 +210,41 @@ void FoxgloveBridge::look() {
   std::vector<const Channel*> came;
   for (TopicSource::Topic& topic : topics_.topics()) {
     const auto [place, is_new] = by_topic_.try_emplace(topic.name, last_channel_ + 1);
-    if (is_new) channels_[place->second].id = ++last_channel_;
-    Channel& channel = channels_[place->second];
-    there.insert(channel.id);
-    if (!is_new && channel.is_there) {
-      channel.topic.keeps = topic.keeps;
+    there.insert(place->second);
+    if (!is_new) {
+      channels_.at(place->second).topic.keeps = topic.keeps;
       continue;
     }
+    Channel& channel = channels_[++last_channel_];
+    channel.id = last_channel_;
     channel.topic = std::move(topic);
-    channel.is_there = true;
     came.push_back(&channel);
   }
   Json gone = Json::array();
-  for (auto& [id, channel] : channels_) {
-    if (!channel.is_there || there.contains(id)) continue;
-    channel.is_there = false;
-    channel.kept.clear();
-    if (std::exchange(channel.is_watched, false)) topics_.unwatch(channel.topic.name);
-    for (auto& [client, subscriber] : clients_) {
-      const auto found = subscriber.subscriptions.find(id);
-      if (found == subscriber.subscriptions.end()) continue;
-      subscriber.channels.erase(found->second);
-      subscriber.subscriptions.erase(found);
-    }
-    gone.push_back(id);
+  for (const auto& [topic, id] : by_topic_) {
+    if (!there.contains(id)) gone.push_back(id);
   }
+  for (const std::uint32_t id : gone) forget(id);
   for (const auto& [client, subscriber] : clients_) {
     if (!gone.empty()) {
       server_.send(client, json_text(Json{{"op", "unadvertise"}, {"channelIds", gone}}));
     }
     advertise(came, client);
   }
+}
+
+void FoxgloveBridge::forget(std::uint32_t id) {
+  const auto channel = channels_.find(id);
+  const std::string topic = channel->second.topic.name;
+  if (channel->second.is_watched) topics_.unwatch(topic);
+  for (auto& [client, subscriber] : clients_) {
+    const auto found = subscriber.subscriptions.find(id);
+    if (found == subscriber.subscriptions.end()) continue;
+    subscriber.channels.erase(found->second);
+    subscriber.subscriptions.erase(found);
+  }
+  by_topic_.erase(topic);
+  channels_.erase(channel);
 }
 
 void FoxgloveBridge::advertise(const std::vector<const Channel*>& channels, Client client) {
@@ -289,7 +291,9 @@ void FoxgloveBridge::forward() {
     dropped_ += std::exchange(arrived_dropped_, 0);
   }
   for (const auto& [id, message] : messages) {
-    Channel& channel = channels_.at(id);
+    const auto place = channels_.find(id);
+    if (place == channels_.end()) continue;  // it went while the message waited
+    Channel& channel = place->second;
     for (const auto& [client, subscriber] : clients_) {
       const auto found = subscriber.subscriptions.find(id);
       if (found != subscriber.subscriptions.end()) send(client, found->second, message);

@@ -60,7 +60,6 @@ class FoxgloveBridge {
     TopicSource::Topic topic;
     std::deque<Message> kept;  // while it is watched, for those who come later
     bool is_watched = false;
-    bool is_there = true;
   };
   struct Subscriber {
     bool controls = false;                            // its protocol has messages of playback
@@ -78,6 +77,8 @@ class FoxgloveBridge {
   void unsubscribe(Client client, std::uint32_t subscription);
   /// Advertises what came up since the last look, and takes back what is gone.
   void look();
+  /// Ends whatever is about a channel whose topic is gone.
+  void forget(std::uint32_t channel);
   void advertise(const std::vector<const Channel*>& channels, Client client);
   void watch(Channel& channel);
   void leave_alone(std::uint32_t channel);
@@ -96,7 +97,7 @@ class FoxgloveBridge {
 
   TopicSource& topics_;
   Options options_;
-  std::map<std::uint32_t, Channel> channels_;
+  std::map<std::uint32_t, Channel> channels_;  // that are there; no number comes twice
   std::map<std::string, std::uint32_t> by_topic_;
   std::map<Client, Subscriber> clients_;
   std::set<std::string> refusals_;

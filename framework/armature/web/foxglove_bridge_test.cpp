@@ -24,7 +24,10 @@ using nlohmann::json;
 /// One topic, whose messages the test writes.
 class OneTopic final : public TopicSource {
  public:
-  std::vector<Topic> topics() const override { return {{.name = "/light", .type = "Light"}}; }
+  std::vector<Topic> topics() const override {
+    if (!is_there_) return {};
+    return {{.name = "/light", .type = "Light"}};
+  }
   Schema schema_of(const Topic&) const override { return {"lamp/msg/Light", "float64 lux"}; }
   bool watch(const std::string&, OnMessage on_message) override {
     const std::scoped_lock lock{mutex_};
@@ -36,6 +39,8 @@ class OneTopic final : public TopicSource {
     on_message_ = nullptr;
   }
 
+  void be_there(bool is_there) { is_there_ = is_there; }
+
   bool write(const std::string& text) {
     const std::scoped_lock lock{mutex_};
     if (!on_message_) return false;
@@ -44,6 +49,7 @@ class OneTopic final : public TopicSource {
   }
 
  private:
+  std::atomic<bool> is_there_{true};
   std::mutex mutex_;
   OnMessage on_message_;
 };
@@ -66,10 +72,14 @@ class FoxgloveBridgeTest : public testing::Test {
 
   std::string answer_to(const std::string& said) {
     socket_.send_text(said);
+    return told().value("message", "");
+  }
+  /// What the bridge tells next, but for messages of topics.
+  json told() {
     for (auto frame = socket_.next(); frame; frame = socket_.next()) {
-      if (frame->op == 1) return json::parse(frame->payload).value("message", "");
+      if (frame->op == 1) return json::parse(frame->payload);
     }
-    return "";
+    return json::object();
   }
   json subscription(int id) const { return {{"id", id}, {"channelId", channel_}}; }
 
@@ -116,6 +126,25 @@ TEST_F(FoxgloveBridgeTest, TakesAnotherNumberOnceTheFirstIsGivenBack) {
   ASSERT_TRUE(frame);
   EXPECT_EQ(frame->op, 2);
   EXPECT_EQ(frame->payload[1], 2) << "the number of the subscription";
+}
+
+TEST_F(FoxgloveBridgeTest, ForgetsAChannelThatIsGoneAndNumbersItAnewWhenItComesAgain) {
+  socket_.send_text(json{{"op", "subscribe"}, {"subscriptions", {subscription(1)}}}.dump());
+  EXPECT_EQ(answer_to(R"({"op": "end"})"), "'end' is not done here: a monitor only shows");
+  int last = channel_;
+  for (int i = 0; i < 3; ++i) {
+    ASSERT_TRUE(i > 0 || topic_.write("the last"));
+    topic_.be_there(false);
+    EXPECT_EQ(told(), (json{{"op", "unadvertise"}, {"channelIds", {last}}}));
+    topic_.be_there(true);
+    const json came = told();
+    ASSERT_EQ(came["op"], "advertise");
+    EXPECT_EQ(came["channels"][0]["topic"], "/light");
+    EXPECT_EQ(came["channels"][0]["id"], last + 1) << "what was known of the old one is gone";
+    last = came["channels"][0]["id"];
+  }
+  EXPECT_EQ(answer_to(json{{"op", "subscribe"}, {"subscriptions", {subscription(2)}}}.dump()),
+            "there is no channel " + std::to_string(channel_));
 }
 
 }  // namespace

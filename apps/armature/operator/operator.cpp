@@ -88,13 +88,11 @@ class Dialogue {
     // Whoever confirms must know that nobody else says that he is the task.
     if (word == "confirm") wait([&] { return link_.knows_all(); });
     if (is_ambiguous()) return kFailed;
-    auto state = link_.state();
     const std::uint64_t id = ids_();
     Steady::time_point told{};
     const bool answered = wait([&] {
-      state = link_.state();
-      if (state && state->answered_() == id) return true;
-      if (!state || Steady::now() - told < kSayAgain) return false;
+      if (told != Steady::time_point{} && link_.answer()) return true;
+      if (!link_.state() || Steady::now() - told < kSayAgain) return false;
       told = Steady::now();
       link_.say(id, word, step);
       return false;
@@ -105,7 +103,7 @@ class Dialogue {
                  options_.timeout_s);
       return kTimedOut;
     }
-    const std::string refused = state->answer_();
+    const std::string refused = link_.answer().value_or("");
     if (refused.empty()) return kOk;
     fmt::print(stderr, "armature: '{}' was refused: {}\n", word, terminal_text(refused));
     return kFailed;

@@ -90,7 +90,14 @@ void TaskLink::keep(const ObservedSample& sample) {
   const auto state = decoded<msg::TaskState>(sample);
   const std::scoped_lock lock{mutex_};
   const bool own = std::ranges::find(own_, sample.writer->guid) != own_.end();
-  if (own && state) states_[sample.writer->guid] = *state;
+  if (!own || !state) return;
+  states_[sample.writer->guid] = *state;
+  if (said_ && state->answered_() == *said_) answer_ = state->answer_();
+}
+
+std::optional<std::string> TaskLink::answer() const {
+  const std::scoped_lock lock{mutex_};
+  return answer_;
 }
 
 std::optional<msg::TaskState> TaskLink::state() const {
@@ -103,6 +110,10 @@ std::optional<msg::TaskState> TaskLink::state() const {
 bool TaskLink::knows_all() const { return monotonic_now() - joined_ > kDiscovery; }
 
 void TaskLink::say(std::uint64_t id, const std::string& word, const std::string& step) {
+  {
+    const std::scoped_lock lock{mutex_};
+    if (std::exchange(said_, id) != id) answer_.reset();
+  }
   SampleRef sample = command_->loan();
   auto& message = *static_cast<msg::OperatorCommand*>(sample.mutable_message());
   write_header(message.header_(), clock_.now());

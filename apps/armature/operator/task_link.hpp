@@ -40,6 +40,9 @@ class TaskLink {
   const std::vector<std::string>& tasks() const { return tasks_; }
   /// Everybody who is in the domain has been found.
   bool knows_all() const;
+  /// The answer to the word that was said last, under whichever of the task's states it came: the
+  /// next state may answer somebody else. Nothing: it has not been answered.
+  std::optional<std::string> answer() const;
   /// Says a word, under a number that is told again until it is answered.
   void say(std::uint64_t id, const std::string& word, const std::string& step);
 
@@ -59,6 +62,8 @@ class TaskLink {
   mutable std::mutex mutex_;
   std::vector<WriterId> own_;
   std::map<WriterId, msg::TaskState> states_;
+  std::optional<std::uint64_t> said_;  // the number of the last word
+  std::optional<std::string> answer_;
   PluginPtr<Transport> transport_;
   std::unique_ptr<Topic> command_;
   PluginPtr<DdsObserver> observer_;  // goes before what its callback uses

@@ -17,6 +17,9 @@ enum class OperatorWord { confirm, pause, resume, back, abort };
 inline constexpr std::string_view kOperatorWords[] = {"confirm", "pause", "resume", "back",
                                                       "abort"};
 
+/// Whether a word only takes risk away: it is obeyed however it was told.
+inline bool makes_safe(std::string_view word) { return word == "pause" || word == "abort"; }
+
 /// An operator's word, as it was told.
 struct OperatorCommand {
   std::uint64_t id = 0;

@@ -11,6 +11,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component/setup.hpp"
+#include "armature/task/answered_words.hpp"
 #include "armature/task/procedure.hpp"
 
 namespace armature ARMATURE_EXPORT {
@@ -26,7 +27,8 @@ struct TaskReport {
 };
 
 /// The two ports at which an operator meets a task: `operator`, what is said to it, and `state`,
-/// what it is doing: every change, and five times a second.
+/// what it is doing: every change, and five times a second. Every state has one answer, so that
+/// several answers take as many states.
 class TaskPorts {
  public:
   explicit TaskPorts(Setup& setup)
@@ -36,7 +38,7 @@ class TaskPorts {
   /// Hands new commands to `obey` (OperatorCommand to Expected<void>). A command that is told
   /// again, since its answer has not been seen yet, is obeyed once. What there is to say of it.
   template <class Obey>
-  std::vector<std::string> hear(const Procedure& procedure, const Obey& obey) {
+  std::vector<std::string> hear(Time now, const Procedure& procedure, const Obey& obey) {
     std::vector<std::string> lines;
     if (procedure.auto_confirm() && !std::exchange(said_who_confirms_, true)) {
       lines.emplace_back("nobody confirms the steps towards the patient (auto_confirm: true)");
@@ -44,14 +46,13 @@ class TaskPorts {
     for (std::size_t i = 0; i < operator_.size(); ++i) {
       const msg::OperatorCommand& message = operator_[i];
       const OperatorCommand command{message.command_id_(), message.command_(), message.step_()};
-      if (command.id == answered_) continue;
-      answered_ = command.id;
+      if (answers_.knows(command, now)) continue;
       const Expected<void> obeyed = obey(command);
-      answer_ = obeyed ? "" : obeyed.error().text;
+      answers_.add(command, obeyed, now);
       const std::string said =
           command.step.empty() ? command.word : command.word + " " + command.step;
-      lines.push_back("the operator says " + said + (obeyed ? "" : ", refused: " + answer_));
-      changed_ = true;
+      lines.push_back("the operator says " + said +
+                      (obeyed ? "" : ", refused: " + obeyed.error().text));
     }
     return lines;
   }
@@ -66,9 +67,8 @@ class TaskPorts {
     }
     if (procedure.paused()) line = "paused: " + line;
     const bool changed = line != line_;
-    if (!changed && !changed_ && now - published_ < kPeriod) return std::nullopt;
+    if (!changed && !answers_.waits() && now - published_ < kPeriod) return std::nullopt;
     line_ = line;
-    changed_ = false;
     published_ = now;
     auto loan = state_.loan();
     write_header(loan->header_(), now);
@@ -77,8 +77,9 @@ class TaskPorts {
     loan->steps_(static_cast<std::uint32_t>(report.steps));
     loan->detail_() = report.detail;
     write_procedure(procedure, *loan);
-    loan->answered_(answered_);
-    loan->answer_() = answer_;
+    const AnsweredWords::Answer& answer = answers_.next();
+    loan->answered_(answer.id);
+    loan->answer_() = answer.text;
     loan.publish();
     return changed ? std::optional{line_} : std::nullopt;
   }
@@ -97,9 +98,9 @@ class TaskPorts {
 
   Input<msg::OperatorCommand> operator_;
   Output<msg::TaskState> state_;
-  std::string line_, answer_;
-  std::uint64_t answered_ = 0;
-  bool changed_ = false, said_who_confirms_ = false;
+  std::string line_;
+  AnsweredWords answers_;
+  bool said_who_confirms_ = false;
   Time published_;
 };
 

@@ -78,8 +78,9 @@ class BiopsyComponent final : public Component {
   }
 
   void step(Time now) override {
-    for (const std::string& line : ports_.hear(
-             task_.procedure(), [&](const auto& command) { return task_.hear(command, now); })) {
+    for (const std::string& line : ports_.hear(now, task_.procedure(), [&](const auto& command) {
+           return task_.hear(command, now);
+         })) {
       log(line);
     }
     read(now);

@@ -3,6 +3,9 @@
 // questions are none, 4. what it says, 5. what it is told.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
@@ -106,6 +109,28 @@ TEST_F(BiopsyComponentTest, SendsTheRegisteredTargetAsAGoal) {
             "2 of 3 markers fit to 0.30 mm, the target is known to 0.40 mm (95 %)");
 }
 
+/// The head is registered, and the approach has been asked of the motion.
+class OperatorOfABiopsy : public BiopsyComponentTest {
+ protected:
+  OperatorOfABiopsy() {
+    show_head();
+    task_.send("registration", answer_to(asked()));
+    told();
+  }
+  void say(std::uint64_t id, const std::string& word) {
+    msg::OperatorCommand message;
+    message.command_id_(id);
+    message.command_() = word;
+    task_.send("operator", message);
+  }
+  /// What it tells in its next step.
+  std::vector<msg::TaskState> told() {
+    task_.take<msg::TaskState>("state");
+    task_.step(now_s_ += 0.02);
+    return task_.take<msg::TaskState>("state");
+  }
+};
+
 TEST_F(BiopsyComponentTest, TellsItsStepsAndAnswersTheOperator) {
   const auto command = [&](std::uint64_t id, const std::string& word) {
     msg::OperatorCommand message;
@@ -137,7 +162,33 @@ TEST_F(BiopsyComponentTest, TellsItsStepsAndAnswersTheOperator) {
   EXPECT_EQ(task_.take<msg::MotionGoal>("goal").back().mode_(), 4);
   EXPECT_EQ(command(8, "pause").answer_(), "it is paused already");
   EXPECT_EQ(task_.lines().back(), "the operator says pause, refused: it is paused already");
-  EXPECT_EQ(command(8, "resume").answer_(), "it is paused already") << "told again";
+  EXPECT_EQ(command(8, "pause").answer_(), "it is paused already") << "told again";
+}
+
+TEST_F(OperatorOfABiopsy, AResumeThatIsToldAgainDoesNotUndoAnothersPause) {
+  say(1, "pause");
+  EXPECT_TRUE(told().back().paused_());
+  say(2, "resume");
+  say(3, "pause");
+  const auto first = told(), second = told();
+  ASSERT_EQ(first.size(), 1U);
+  ASSERT_EQ(second.size(), 1U);
+  EXPECT_EQ(first[0].answered_(), 2U);
+  EXPECT_EQ(second[0].answered_(), 3U) << "both come to see their answer";
+  EXPECT_TRUE(second[0].paused_());
+  say(2, "resume");
+  const auto again = told();
+  ASSERT_EQ(again.size(), 1U);
+  EXPECT_TRUE(again[0].paused_()) << "nobody has said a second resume";
+  EXPECT_EQ(again[0].answered_(), 2U);
+  EXPECT_EQ(again[0].answer_(), "");
+}
+
+TEST_F(OperatorOfABiopsy, AWordWithTheNumberZeroIsHeard) {
+  say(0, "abort");
+  const auto state = told();
+  ASSERT_EQ(state.size(), 1U);
+  EXPECT_EQ(state[0].state_(), "aborting");
 }
 
 TEST_F(BiopsyComponentTest, AnAnswerToSomebodyElseIsNone) {

@@ -106,7 +106,7 @@ class ImplantComponent final : public Component {
     if (!begun_) task_.begin(now);
     begun_ = true;
     const auto obey = [&](const auto& command) { return task_.hear(command, now); };
-    for (const std::string& line : ports_.hear(task_.procedure(), obey)) log(line);
+    for (const std::string& line : ports_.hear(now, task_.procedure(), obey)) log(line);
     read_arm();
     const msg::JointState* handpiece = handpiece_js_.latest();
     if (handpiece && !handpiece->position_().empty()) {

@@ -68,7 +68,7 @@ class LampAlignmentComponent : public Component {
 
   void step(Time now) override {
     const auto obey = [&](const auto& command) { return task_.hear(command, now); };
-    for (const std::string& line : ports_.hear(task_.procedure(), obey)) log(line);
+    for (const std::string& line : ports_.hear(now, task_.procedure(), obey)) log(line);
     read(now);
     task_.step(now);
     send_goal(now);

@@ -53,7 +53,7 @@ class TeleoperationComponent final : public Component {
       task_.hear_follower(report_of(follower_status_[i]));
     }
     for (const std::string& line : ports_.hear(
-             task_.procedure(), [this](const auto& command) { return task_.hear(command); })) {
+             now, task_.procedure(), [this](const auto& command) { return task_.hear(command); })) {
       log(line);
     }
     task_.see(view(), now);

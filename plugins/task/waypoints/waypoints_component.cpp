@@ -75,7 +75,7 @@ class WaypointsComponent final : public Component {
       tour_.hear(report_of(motion_status_[i]), now);
     }
     for (const std::string& line : ports_.hear(
-             tour_.procedure(), [this](const auto& command) { return tour_.hear(command); })) {
+             now, tour_.procedure(), [this](const auto& command) { return tour_.hear(command); })) {
       log(line);
     }
     see_arm();

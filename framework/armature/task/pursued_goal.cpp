@@ -18,7 +18,7 @@ void PursuedGoal::set(const MotionGoal& goal) {
   state_ = State::waiting;
   send_at_ = kAtOnce;
   broke_down_ = {};
-  once_ = begun_ = false;
+  once_ = begun_ = resumes_ = false;
   interrupted_.reset();
   reason_.clear();
 }
@@ -29,6 +29,7 @@ void PursuedGoal::set_once(const MotionGoal& goal) {
 }
 
 void PursuedGoal::pause() {
+  resumes_ = false;
   if (state_ != State::waiting && state_ != State::moving) return;
   MotionGoal rest = goal_;
   const bool once = once_;
@@ -45,6 +46,8 @@ void PursuedGoal::pause() {
 
 void PursuedGoal::resume() {
   if (!interrupted_) return;
+  resumes_ = state_ == State::pausing;
+  if (resumes_) return;
   const auto [rest, once] = *interrupted_;
   set(rest);
   once_ = once;
@@ -73,6 +76,7 @@ void PursuedGoal::hear(const GoalReport& report, Time now) {
     case GoalReport::State::done:
       if (state_ == State::pausing || state_ == State::paused) {
         state_ = State::paused;
+        if (resumes_) resume();
         break;
       }
       if (state_ != State::done) done_at_ = now;

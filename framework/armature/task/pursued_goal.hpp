@@ -32,7 +32,7 @@ class PursuedGoal {
   /// paused. Of a goal that has been done, or has failed, nothing moves: nothing to do.
   void pause();
   /// Goes on after a pause: a goal that must not be begun a second time along its way, any other
-  /// from where the arm is.
+  /// from where the arm is. An arm that still slows down comes to rest first.
   void resume();
   /// Makes "back along the way, as it came" the current goal: to the stop before when `stepwise`,
   /// else to where the way began. For an arm that rests on its way: paused, or done.
@@ -51,8 +51,6 @@ class PursuedGoal {
   bool stopped() const { return state_ == State::failed && stopped_; }
   Time done_at() const { return done_at_; }
   const std::string& reason() const { return reason_; }
-  /// The arm has set out for it.
-  bool begun() const { return begun_; }
   /// Of a goal that is done: how many stops of its way lie behind it.
   int stops_ahead() const { return stops_ahead_; }
   int sent() const { return sent_; }
@@ -73,6 +71,7 @@ class PursuedGoal {
     bool once = false;
   };
   std::optional<Interrupted> interrupted_;  // by a pause
+  bool resumes_ = false;                    // as soon as it is paused
   int stops_ahead_ = 0;
   std::array<std::optional<Time>, 2> broke_down_;  // the last two times, the newest first
   int sent_ = 0;

@@ -122,6 +122,37 @@ TEST_F(PausedGoalTest, AWayBackThatWasPausedGoesOnBack) {
   EXPECT_TRUE(rest.stepwise);
 }
 
+TEST_F(PausedGoalTest, AnArmThatStillSlowsDownComesToRestBeforeItGoesOn) {
+  goals_.set_once(goal_);
+  sent();
+  hear(Report::executing);
+  goals_.pause();
+  EXPECT_EQ(sent().mode, MotionMode::pause);
+  hear(Report::executing);
+  goals_.resume();
+  EXPECT_FALSE(goals_.outgoing(at(1)));
+  EXPECT_EQ(goals_.state(), PursuedGoal::State::pausing);
+  hear(Report::done);
+  EXPECT_EQ(sent().mode, MotionMode::resume);
+  hear(Report::executing);
+  EXPECT_EQ(goals_.state(), PursuedGoal::State::moving);
+}
+
+TEST_F(PausedGoalTest, APauseBehindAResumeThatStillWaitsHolds) {
+  goals_.set_once(goal_);
+  sent();
+  hear(Report::executing);
+  goals_.pause();
+  sent();
+  goals_.resume();
+  goals_.pause();
+  hear(Report::done);
+  EXPECT_EQ(goals_.state(), PursuedGoal::State::paused);
+  EXPECT_FALSE(goals_.outgoing(at(1)));
+  goals_.resume();
+  EXPECT_EQ(sent().mode, MotionMode::resume);
+}
+
 TEST_F(PausedGoalTest, WhereNothingMovesThereIsNothingToPause) {
   goals_.pause();
   EXPECT_EQ(goals_.state(), PursuedGoal::State::none);

@@ -123,6 +123,7 @@ void Biopsy::hear(const GoalReport& report, Time now) {
   if (led() && !was_led) touching_.begin_rest();
   if (in_hand() && goal_.state() == PursuedGoal::State::failed) return refuse(goal_.reason());
   if (procedure_.over() || heading_ == Heading::none) return;
+  if (goal_.state() == PursuedGoal::State::moving) has_set_out_ = true;
   if (goal_.state() == PursuedGoal::State::failed) {
     return break_down((heading_ == Heading::onward ? "" : "the way back failed: ") + goal_.reason(),
                       now);
@@ -134,6 +135,7 @@ void Biopsy::arrive(Time now) {
   const Heading came = std::exchange(heading_, Heading::none);
   const int ahead = goal_.stops_ahead();
   if (way_stops_ == 0 && came == Heading::onward) way_stops_ = ahead + 1;
+  has_set_out_ = way_stops_ > 0;
   place_ = came == Heading::onward ? way_stops_ - ahead : ahead;
   if (came == Heading::home) {
     ended_as_ = Phase::aborted;
@@ -202,6 +204,7 @@ Expected<void> Biopsy::go_back(Time now) {
   if (stands_where_it_began) {
     line_.reset();
     way_stops_ = 0;
+    has_set_out_ = false;
     enter(Step::registration);
     return {};
   }
@@ -229,14 +232,13 @@ Expected<void> Biopsy::abort() {
 }
 
 void Biopsy::break_down(const std::string& why, Time now) {
-  const bool has_set_out = way_stops_ > 0 || goal_.begun();
-  if (!has_set_out && parameters_.touch_markers && !parameters_.auto_confirm) {
+  if (!has_set_out_ && parameters_.touch_markers && !parameters_.auto_confirm) {
     heading_ = Heading::none;
     trouble_ = why;
     give_to_hand(now);
     return enter(Step::approach);
   }
-  if (parameters_.auto_confirm || !has_set_out) return refuse(why);
+  if (parameters_.auto_confirm || !has_set_out_) return refuse(why);
   held_ = true;
   heading_ = turning_to_ = Heading::none;
   trouble_ = why;

@@ -128,7 +128,8 @@ class Biopsy {
   PursuedGoal goal_;
   Heading heading_ = Heading::none;     // of the goal that is pursued
   Heading turning_to_ = Heading::none;  // as soon as the arm rests
-  int way_stops_ = 0;                   // 0: no way is planned
+  int way_stops_ = 0;                   // 0: its first stop has not been reached yet
+  bool has_set_out_ = false;            // from where the way began, and has not come back
   int place_ = 0;                       // the stop where the arm rests, or rested last
   Time at_target_since_;
   Time waits_since_;         // for a hand

@@ -222,6 +222,20 @@ TEST_F(OperatedBiopsyTest, PausedOnItsWayItGoesOnAlongIt) {
   EXPECT_EQ(task_->phase(), Phase::at_target);
 }
 
+TEST_F(OperatedBiopsyTest, ResumedWhileItStillSlowsDownItRestsFirst) {
+  say("confirm", "approach");
+  sent();
+  hear(Report::executing);
+  EXPECT_EQ(say("pause"), "");
+  sent();
+  hear(Report::executing);
+  EXPECT_EQ(say("resume"), "");
+  expect_no_goal();
+  hear(Report::done);
+  EXPECT_EQ(sent().mode, MotionMode::resume);
+  EXPECT_EQ(task_->phase(), Phase::moving);
+}
+
 TEST_F(OperatedBiopsyTest, BackFromAStopGoesToTheOneBeforeAndItsStepAsksAgain) {
   confirm("approach", 2);
   confirm("entry", 1);
@@ -340,6 +354,43 @@ TEST_F(OperatedBiopsyTest, ANeedleThatBrokeDownOnItsWayIsLedOutByTheOperator) {
   EXPECT_EQ(say("abort"), "") << "once more";
   reach(0);
   EXPECT_EQ(task_->phase(), Phase::aborted);
+}
+
+/// The first goal after a rearm is refused, lest an old one moves the arm.
+TEST_F(OperatedBiopsyTest, ANeedleThatWasStoppedOnItsApproachIsLedOutByTheSecondWord) {
+  for (const std::string word : {"back", "abort"}) {
+    SCOPED_TRACE(word);
+    begin(false);
+    register_head();
+    say("confirm", "approach");
+    sent();
+    hear(Report::executing);
+    fail("stop", "stopped until it is rearmed");
+    fail("accept", "the arm was stopped and rearmed since");
+    EXPECT_EQ(say(word), "");
+    EXPECT_EQ(sent().mode, MotionMode::retrace);
+    fail("stop", "give it again to go on");
+    EXPECT_EQ(task_->phase(), Phase::held);
+    EXPECT_EQ(task_->trouble(), "the way back failed: stop: give it again to go on");
+    fail("accept", "give it again to go on");
+    EXPECT_EQ(say(word), "");
+    EXPECT_EQ(reach(0).mode, MotionMode::retrace);
+    EXPECT_EQ(task_->phase(), word == "back" ? Phase::asking : Phase::aborted);
+  }
+}
+
+TEST_F(OperatedBiopsyTest, ANeedleThatCameBackToWhereItBeganHasNotSetOut) {
+  say("confirm", "approach");
+  sent();
+  hear(Report::executing);
+  EXPECT_EQ(say("back"), "");
+  sent();
+  hear(Report::done);
+  reach(0);
+  EXPECT_EQ(say("confirm", "approach"), "");
+  EXPECT_EQ(sent().mode, MotionMode::planned);
+  fail("path", "a vessel");
+  EXPECT_EQ(task_->phase(), Phase::refused);
 }
 
 TEST_F(OperatedBiopsyTest, ANeedleThatWaitsForTheOperatorIsNotLedOutByAnArmThatIsStopped) {

@@ -14,6 +14,8 @@
 #include <vector>
 
 #include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/header.hpp"
+#include "armature/task/heard_word.hpp"
 #include "armature/task/procedure.hpp"
 #include "asker.hpp"
 #include "command.hpp"
@@ -30,8 +32,9 @@ constexpr std::chrono::seconds kLongEnough{30};
 /// The lamp's task: it tells its steps, hears every word and obeys none.
 class PlayedTask {
  public:
-  PlayedTask(int domain, std::vector<Procedure::Step> steps)
-      : procedure_{std::move(steps), false},
+  PlayedTask(int domain, std::vector<Procedure::Step> steps, Duration clock_ahead = Duration{0})
+      : clock_ahead_{clock_ahead},
+        procedure_{std::move(steps), false},
         transport_{std::move(*FastDdsTransport::make({.network = {.domain = domain},
                                                       .deployment = "dental_lamp",
                                                       .fingerprint = std::string(64, '0'),
@@ -59,6 +62,13 @@ class PlayedTask {
     const auto& command = *static_cast<const msg::OperatorCommand*>(sample.message());
     const std::scoped_lock lock{mutex_};
     if (command.command_id_() == answered_) return;
+    const auto fresh = in_time(command.command_(), stamp_of(command.header_().stamp_()),
+                               system_now() + clock_ahead_);
+    if (!fresh) {
+      answer_ = fresh.error().text;
+      answered_ = command.command_id_();
+      return;
+    }
     const auto heard = procedure_.hear({.word = command.command_(), .step = command.step_()});
     answer_ = heard ? "" : heard.error().text;
     if (heard && *heard == OperatorWord::confirm) confirmed_.push_back(command.step_());
@@ -70,6 +80,7 @@ class PlayedTask {
       auto& state = *static_cast<msg::TaskState*>(sample.mutable_message());
       {
         const std::scoped_lock lock{mutex_};
+        write_header(state.header_(), system_now() + clock_ahead_);
         state.answered_(answered_);
         state.answer_() = answer_;
         state.procedure_().resize(procedure_.steps().size());
@@ -85,6 +96,7 @@ class PlayedTask {
     }
   }
 
+  const Duration clock_ahead_;  // of the terminal's
   mutable std::mutex mutex_;
   Procedure procedure_;
   std::vector<std::string> confirmed_;
@@ -103,8 +115,9 @@ class OperatorQuestionTest : public testing::Test {
  protected:
   explicit OperatorQuestionTest(std::vector<Procedure::Step> steps = {{"light", false},
                                                                       {"search", true},
-                                                                      {"alignment", true}})
-      : alignment_{steps.size() - 1}, task_{domain_, std::move(steps)} {
+                                                                      {"alignment", true}},
+                                Duration clock_ahead = Duration{0})
+      : alignment_{steps.size() - 1}, task_{domain_, std::move(steps), clock_ahead} {
     EXPECT_EQ(mkfifo(keyboard_.c_str(), 0600), 0);
     task_.enter(alignment_);
   }
@@ -175,6 +188,18 @@ class OperatorOfOneQuestionTest : public OperatorQuestionTest {
 };
 
 TEST_F(OperatorOfOneQuestionTest, NeedsNoNameOfAStep) {
+  const CommandResult said = run_command(operating({"--say", "confirm"}), {}, kLongEnough);
+  EXPECT_EQ(said.exit_code, 0) << said.err;
+  EXPECT_THAT(task_.confirmed(), ElementsAre("alignment"));
+}
+
+class OperatorAtAnotherClockTest : public OperatorQuestionTest {
+ protected:
+  OperatorAtAnotherClockTest()
+      : OperatorQuestionTest{{{"light", false}, {"alignment", true}}, -seconds(3600)} {}
+};
+
+TEST_F(OperatorAtAnotherClockTest, SaysItsWordsByTheClockOfTheTask) {
   const CommandResult said = run_command(operating({"--say", "confirm"}), {}, kLongEnough);
   EXPECT_EQ(said.exit_code, 0) << said.err;
   EXPECT_THAT(task_.confirmed(), ElementsAre("alignment"));

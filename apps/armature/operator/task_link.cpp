@@ -91,7 +91,8 @@ void TaskLink::keep(const ObservedSample& sample) {
   const std::scoped_lock lock{mutex_};
   const bool own = std::ranges::find(own_, sample.writer->guid) != own_.end();
   if (!own || !state) return;
-  states_[sample.writer->guid] = *state;
+  const Time stamp = stamp_of(state->header_().stamp_());
+  states_[sample.writer->guid] = {*state, stamp == Time{} ? Duration{0} : stamp - clock_.now()};
   if (said_ && state->answered_() == *said_) answer_ = state->answer_();
 }
 
@@ -100,23 +101,31 @@ std::optional<std::string> TaskLink::answer() const {
   return answer_;
 }
 
+/// With `mutex_` held.
+const TaskLink::Told* TaskLink::told_last() const {
+  if (own_.size() != 1) return nullptr;
+  const auto found = states_.find(own_.front());
+  return found == states_.end() ? nullptr : &found->second;
+}
+
 std::optional<msg::TaskState> TaskLink::state() const {
   const std::scoped_lock lock{mutex_};
-  if (own_.size() != 1) return std::nullopt;
-  const auto found = states_.find(own_.front());
-  return found == states_.end() ? std::nullopt : std::optional{found->second};
+  const Told* told = told_last();
+  return told ? std::optional{told->state} : std::nullopt;
 }
 
 bool TaskLink::knows_all() const { return monotonic_now() - joined_ > kDiscovery; }
 
 void TaskLink::say(std::uint64_t id, const std::string& word, const std::string& step) {
+  Duration clock_ahead{0};
   {
     const std::scoped_lock lock{mutex_};
+    if (const Told* told = told_last()) clock_ahead = told->clock_ahead;
     if (std::exchange(said_, id) != id) answer_.reset();
   }
   SampleRef sample = command_->loan();
   auto& message = *static_cast<msg::OperatorCommand*>(sample.mutable_message());
-  write_header(message.header_(), clock_.now());
+  write_header(message.header_(), clock_.now() + clock_ahead);
   message.command_id_(id);
   message.command_() = word;
   message.step_() = step;

@@ -43,14 +43,20 @@ class TaskLink {
   /// The answer to the word that was said last, under whichever of the task's states it came: the
   /// next state may answer somebody else. Nothing: it has not been answered.
   std::optional<std::string> answer() const;
-  /// Says a word, under a number that is told again until it is answered.
+  /// Says a word, under a number that is told again until it is answered. It is stamped by the
+  /// task's clock, as of what the task told last: the clock of this host may be another one.
   void say(std::uint64_t id, const std::string& word, const std::string& step);
 
  private:
   using WriterId = std::array<std::uint8_t, 16>;
+  struct Told {
+    msg::TaskState state;
+    Duration clock_ahead{0};  // the task's, of ours
+  };
 
   bool is_own(const ObservedEndpoint& writer);
   void keep(const ObservedSample& sample);
+  const Told* told_last() const;
   void name_once(const std::string& who, const std::string& what);
 
   const TaskTopics topics_;
@@ -61,7 +67,7 @@ class TaskLink {
   bool watched_ = false;
   mutable std::mutex mutex_;
   std::vector<WriterId> own_;
-  std::map<WriterId, msg::TaskState> states_;
+  std::map<WriterId, Told> states_;
   std::optional<std::uint64_t> said_;  // the number of the last word
   std::optional<std::string> answer_;
   PluginPtr<Transport> transport_;

@@ -12,6 +12,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/task/answered_words.hpp"
+#include "armature/task/heard_word.hpp"
 #include "armature/task/procedure.hpp"
 
 namespace armature ARMATURE_EXPORT {
@@ -36,7 +37,8 @@ class TaskPorts {
         state_{setup.output<msg::TaskState>("state")} {}
 
   /// Hands new commands to `obey` (OperatorCommand to Expected<void>). A command that is told
-  /// again, since its answer has not been seen yet, is obeyed once. What there is to say of it.
+  /// again, since its answer has not been seen yet, is obeyed once; one that came too late is
+  /// refused. What there is to say of it.
   template <class Obey>
   std::vector<std::string> hear(Time now, const Procedure& procedure, const Obey& obey) {
     std::vector<std::string> lines;
@@ -45,9 +47,10 @@ class TaskPorts {
     }
     for (std::size_t i = 0; i < operator_.size(); ++i) {
       const msg::OperatorCommand& message = operator_[i];
-      const OperatorCommand command{message.command_id_(), message.command_(), message.step_()};
+      const OperatorCommand command = heard_word(message);
       if (answers_.knows(command, now)) continue;
-      const Expected<void> obeyed = obey(command);
+      Expected<void> obeyed = in_time(command.word, stamp_of(message.header_().stamp_()), now);
+      if (obeyed) obeyed = obey(command);
       answers_.add(command, obeyed, now);
       const std::string said =
           command.step.empty() ? command.word : command.word + " " + command.step;

@@ -117,8 +117,9 @@ class OperatorOfABiopsy : public BiopsyComponentTest {
     task_.send("registration", answer_to(asked()));
     told();
   }
-  void say(std::uint64_t id, const std::string& word) {
+  void say(std::uint64_t id, const std::string& word, double ago_s = 0) {
     msg::OperatorCommand message;
+    write_header(message.header_(), Time{} + seconds(now_s_ - ago_s));
     message.command_id_(id);
     message.command_() = word;
     task_.send("operator", message);
@@ -182,6 +183,30 @@ TEST_F(OperatorOfABiopsy, AResumeThatIsToldAgainDoesNotUndoAnothersPause) {
   EXPECT_TRUE(again[0].paused_()) << "nobody has said a second resume";
   EXPECT_EQ(again[0].answered_(), 2U);
   EXPECT_EQ(again[0].answer_(), "");
+}
+
+TEST_F(OperatorOfABiopsy, AnOldResumeIsRefusedAndAnOldPauseIsObeyed) {
+  say(1, "pause", 60);
+  EXPECT_TRUE(told().back().paused_());
+  say(2, "resume", 60);
+  const auto state = told();
+  ASSERT_EQ(state.size(), 1U);
+  EXPECT_TRUE(state[0].paused_());
+  EXPECT_EQ(state[0].answered_(), 2U);
+  EXPECT_EQ(state[0].answer_(),
+            "'resume' was said 60.0 s ago, and holds for 1 s: say it again; when it is new, the "
+            "clock of its host is behind");
+  say(3, "resume");
+  EXPECT_FALSE(told().back().paused_());
+}
+
+TEST_F(OperatorOfABiopsy, OfALongWordTheAnswerQuotesTheBeginning) {
+  say(1, std::string(10'000'000, 'x'));
+  const auto state = told();
+  ASSERT_EQ(state.size(), 1U);
+  EXPECT_EQ(state[0].answer_(), "'" + std::string(64, 'x') +
+                                    "...' is no command; there are confirm, pause, resume, back, "
+                                    "abort");
 }
 
 TEST_F(OperatorOfABiopsy, AWordWithTheNumberZeroIsHeard) {

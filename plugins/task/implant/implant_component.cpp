@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -22,6 +23,7 @@
 #include "armature/task/task_ports.hpp"
 #include "body_input.hpp"
 #include "implant.hpp"
+#include "plan_messages.hpp"
 
 namespace armature::task::implant {
 namespace {
@@ -40,24 +42,6 @@ Parameters parameters_of(const Params& params) {
                               1e3 * stand_off, 1e3 * depth, 2e3 * depth));
   }
   return parameters;
-}
-
-std::vector<ToolPose> sites_of(const msg::ImplantPlan& plan) {
-  std::vector<ToolPose> sites;
-  for (const msg::Pose& site : plan.sites_()) {
-    sites.push_back({to_eigen(site.position_()), to_eigen(site.orientation_())});
-  }
-  return sites;
-}
-
-std::vector<PlannedImplant> implants_of(const msg::ImplantPlan& plan) {
-  std::vector<PlannedImplant> implants;
-  for (const msg::Implant& implant : plan.implants_()) {
-    implants.push_back({.above_bottom_m = implant.above_bottom_(),
-                        .length_m = implant.length_(),
-                        .pitch_m = implant.pitch_()});
-  }
-  return implants;
 }
 
 RegisteredJaw jaw_of(const msg::RegistrationResponse& response) {
@@ -155,9 +139,7 @@ class ImplantComponent final : public Component {
   }
 
   void read(Time now) {
-    if (const msg::ImplantPlan* plan = plan_.latest()) {
-      task_.see_plan(sites_of(*plan), implants_of(*plan));
-    }
+    read_plan();
     for (std::size_t i = 0; i < motion_status_.size(); ++i) {
       task_.hear(report_of(motion_status_[i]), now);
     }
@@ -176,11 +158,23 @@ class ImplantComponent final : public Component {
     });
   }
 
+  /// Markers and sites that belong together are those of one plan.
+  void read_plan() {
+    if (!plan_.latest()) return;
+    if (!begun_with_) {
+      begun_with_ = *plan_.latest();
+      task_.see_plan(sites_of(*begun_with_), implants_of(*begun_with_));
+    }
+    if (told_other_plan_ || !is_other(*plan_.latest(), *begun_with_)) return;
+    told_other_plan_ = true;
+    log("another plan has come; this procedure goes on with the one that it began with");
+  }
+
   void ask(Time now) {
     std::vector<msg::Point> sites;
-    for (const msg::Pose& site : plan_.latest()->sites_()) sites.push_back(site.position_());
+    for (const msg::Pose& site : begun_with_->sites_()) sites.push_back(site.position_());
     registration_.ask({.robot_frame = markers_.latest()->header_().frame_id_(),
-                       .image_markers = plan_.latest()->markers_(),
+                       .image_markers = begun_with_->markers_(),
                        .robot_markers = markers_.latest()->points_(),
                        .targets = sites},
                       now);
@@ -225,6 +219,8 @@ class ImplantComponent final : public Component {
   BodyInput flange_, jaw_, pivot_;
   Input<msg::JointState> handpiece_js_, measured_js_;
   Input<msg::ImplantPlan> plan_;
+  std::optional<msg::ImplantPlan> begun_with_;
+  bool told_other_plan_ = false;
   Input<msg::MeasuredMarkers> markers_;
   RegistrationDialogue registration_;
   Input<msg::MotionStatus> motion_status_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The drilling on its topics: 1. what it says while it waits, 2. a tracker that is silent, or tells
-// what is no pose, 3. the question to the registration, and whose answers count, 4. what it
-// refuses and needs.
+// what is no pose, 3. the question to the registration, whose answers count, and which
+// plan, 4. what it refuses and needs.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,15 +39,16 @@ class ImplantComponentTest : public testing::Test {
     assign(message.pose_(), pose);
     return message;
   }
-  void show_plan() {
+  /// `shift_m`: of the image's origin, which the jaw does not notice.
+  void show_plan(double shift_m = 0) {
     msg::ImplantPlan plan;
     msg::MeasuredMarkers markers;
     write_header(markers.header_(), Time{}, "jaw");
     for (const double x : {0.0, 0.02, 0.05}) {
-      assign(plan.markers_().emplace_back(), Vector3d{x, 10 * x * x, 0});
+      assign(plan.markers_().emplace_back(), Vector3d{x + shift_m, 10 * x * x, 0});
       assign(markers.points_().emplace_back(), Vector3d{x, 10 * x * x, 0.1});
     }
-    assign(plan.sites_().emplace_back(), Isometry3d{Eigen::Translation3d{0.02, 0, 0.01}});
+    assign(plan.sites_().emplace_back(), Isometry3d{Eigen::Translation3d{0.02 + shift_m, 0, 0.01}});
     task_.send("plan", plan);
     task_.send("markers", markers);
   }
@@ -143,6 +144,22 @@ TEST_F(ImplantComponentTest, AsksForARegistrationInTheFrameOfTheMarkers) {
   EXPECT_DOUBLE_EQ(request.marker_error_(), 0.0005);
   ASSERT_EQ(request.targets_().size(), 1u);
   EXPECT_EQ(request.targets_()[0].x_(), 0.02);
+}
+
+TEST_F(ImplantComponentTest, MarkersAndSitesAreThoseOfThePlanThatItBeganWith) {
+  const std::string told =
+      "another plan has come; this procedure goes on with the one that it began with";
+  show_plan();
+  step();
+  show_plan();
+  step();
+  EXPECT_EQ(std::ranges::count(task_.lines(), told), 0) << "the same plan once more";
+  show_plan(0.01);
+  go_to("registering");
+  const msg::RegistrationRequest request = asked();
+  EXPECT_EQ(request.image_markers_()[1].x_(), 0.02);
+  EXPECT_EQ(request.targets_()[0].x_(), 0.02);
+  EXPECT_EQ(std::ranges::count(task_.lines(), told), 1);
 }
 
 TEST_F(ImplantComponentTest, GoesToTheSiteThatWasRegisteredAndTellsItsChain) {

@@ -30,9 +30,9 @@ void CalibrationRun::arrive(Time now) {
 
 void CalibrationRun::see(const Sighting& sighting, const Eigen::Isometry3d& base_T_flange) {
   if (!arrived_ || sighting.stamp < *arrived_) return;
-  watch_.see(sighting);
-  if (!sighting.tracker_T_body) return;
-  if (average_.count() == 0 || has_moved(base_T_flange_, base_T_flange)) {
+  const bool moved = has_moved(base_T_flange_, base_T_flange);
+  if (!watch_.see(sighting, !moved)) return;
+  if (average_.count() == 0 || moved) {
     average_.clear();
     base_T_flange_ = base_T_flange;
   }

@@ -62,9 +62,12 @@ void Guidance::see_driver_in_hand(const Sighting& sighting) {
 Expected<void> Guidance::see_flange(const Sighting& sighting,
                                     const std::optional<Isometry3d>& base_T_flange, bool must_agree,
                                     Time now) {
-  flange_watch_.see(sighting);
+  const bool rests = !base_T_flange || !has_moved(flange_seen_at_, *base_T_flange);
+  if (base_T_flange && !rests) flange_seen_at_ = *base_T_flange;
+  const bool anew = flange_watch_.see(sighting, rests);
   if (!base_T_flange) return {};
   if (step_ == Step::hand_eye) calibration_.see(sighting, *base_T_flange);
+  if (!anew) return {};
   if (step_ == Step::place) flange_.see(sighting, *base_T_flange, now);
   if (step_ != Step::complete || !must_agree) return {};
   flange_.see(sighting, *base_T_flange, now);
@@ -88,8 +91,7 @@ Expected<void> Guidance::check_flange(bool at_bores) const {
 int Guidance::flange_samples() const { return std::min(kFlangeSamples, parameters_.jaw_samples); }
 
 Expected<void> Guidance::see_jaw(const Sighting& sighting, bool must_rest) {
-  jaw_watch_.see(sighting);
-  if (!sighting.tracker_T_body) return {};
+  if (!jaw_watch_.see(sighting)) return {};
   std::optional<std::string> moved;
   if (step_ == Step::place) {
     moved = jaw_.see(*sighting.tracker_T_body);

@@ -99,6 +99,7 @@ class Guidance {
   PivotRun drill_, driver_;
   CalibrationRun calibration_;
   BodyWatch flange_watch_, jaw_watch_;
+  Eigen::Isometry3d flange_seen_at_ = Eigen::Isometry3d::Identity();  // by the arm, since it rests
   bool has_handpiece_ = false;
   std::vector<Eigen::Isometry3d> sites_;
   std::vector<PlannedImplant> implants_;

@@ -67,7 +67,10 @@ class ImplantTest : public testing::Test {
     if (see_drill_) task_.see_drill_in_hand(in_hand(chain_.tip));
     if (see_driver_) task_.see_driver_in_hand(in_hand(driver_tip_));
     if (see_flange_) task_.see_flange(flange(), now());
-    if (see_jaw_) task_.see_jaw({now(), chain_.tracker_T_patient});
+    if (see_jaw_) {
+      const Sighting sighting = jaw();
+      for (int i = 0; i < times_; ++i) task_.see_jaw(sighting);
+    }
     task_.update(now());
     if (const auto goal = task_.outgoing_goal(now())) drive(*goal);
   }
@@ -80,11 +83,19 @@ class ImplantTest : public testing::Test {
   Sighting flange() {
     std::normal_distribution<double> normal{0, jitter_m_ + 1e-15};
     const Vector3d jitter{normal(random_), normal(random_), normal(random_)};
-    return {now(), chain_.base_T_tracker.inverse() * base_T_flange_ * chain_.flange_T_body *
-                       Eigen::Translation3d{jitter} *
-                       Eigen::AngleAxisd{10 * normal(random_), Vector3d::UnitX()} *
-                       Eigen::AngleAxisd{10 * normal(random_), Vector3d::UnitY()} *
-                       Eigen::AngleAxisd{10 * normal(random_), Vector3d::UnitZ()}};
+    if (frozen_) return {now(), seen_flange_};
+    seen_flange_ = chain_.base_T_tracker.inverse() * base_T_flange_ * chain_.flange_T_body *
+                   Eigen::Translation3d{jitter} *
+                   Eigen::AngleAxisd{10 * normal(random_), Vector3d::UnitX()} *
+                   Eigen::AngleAxisd{10 * normal(random_), Vector3d::UnitY()} *
+                   Eigen::AngleAxisd{10 * normal(random_), Vector3d::UnitZ()};
+    return {now(), seen_flange_};
+  }
+  Sighting jaw() {
+    std::normal_distribution<double> normal{0, 1};
+    const Vector3d jitter{normal(jaw_random_), normal(jaw_random_), normal(jaw_random_)};
+    if (!frozen_) seen_jaw_ = chain_.tracker_T_patient * Eigen::Translation3d{jitter_m_ * jitter};
+    return {now(), seen_jaw_};
   }
   void drive(const MotionGoal& goal) {
     goals_.push_back(goal);
@@ -145,7 +156,10 @@ class ImplantTest : public testing::Test {
   const Vector3d driver_tip_{0.012, 0.018, 0.085};
   std::vector<ToolPose> sites_;
   double now_s_ = 100, jitter_m_ = 0, short_m_ = 0;
-  std::mt19937 random_{5};
+  std::mt19937 random_{5}, jaw_random_{6};
+  bool frozen_ = false;  // the tracker tells its last poses again, with new stamps
+  int times_ = 1;        // that every sample of the jaw is told
+  Isometry3d seen_flange_ = Isometry3d::Identity(), seen_jaw_ = Isometry3d::Identity();
   bool see_drill_ = true, see_driver_ = true, see_flange_ = true, see_jaw_ = true;
   bool handpiece_ = true;
   double angle_ = 11, turned_from_ = 11, turned_part_ = 1;

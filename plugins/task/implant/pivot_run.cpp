@@ -15,8 +15,7 @@ void PivotRun::begin(Time now) {
 
 void PivotRun::see(const Sighting& sighting) {
   if (!begun_ && sighting.tracker_T_body) begin(sighting.stamp);
-  watch_.see(sighting);
-  if (!sighting.tracker_T_body) return;
+  if (!watch_.see(sighting)) return;
   if (!since_) since_ = sighting.stamp;
   poses_.push_back(*sighting.tracker_T_body);
 }

@@ -16,7 +16,10 @@ struct Sighting {
   std::string reason = {};                          // why not
 };
 
-/// Whether a body that is needed is still seen.
+/// Whether a body that is needed is still seen. A sample counts once: one whose stamp is not newer
+/// is the last one again. A tracker that errs never gives two equal poses, so once it has been seen
+/// to err, a pose that equals the last one bit for bit is no sight of the body but a tracker, or
+/// its driver, that is frozen.
 class BodyWatch {
  public:
   /// `body` as in "the tracker has not seen the jaw".
@@ -24,14 +27,24 @@ class BodyWatch {
 
   /// From now on it has to be seen.
   void begin(Time now);
-  void see(const Sighting& sighting);
-  /// "the tracker has not seen the jaw for 0.52 s: its spheres are hidden", or nullopt.
+  /// Whether the body was seen anew. `rests`: what carries it has not moved since the last sample,
+  /// as far as one knows; a body that is carried on does not keep its pose, however well it is
+  /// seen.
+  bool see(const Sighting& sighting, bool rests = true);
+  /// "the tracker has not seen the jaw for 0.52 s: its spheres are hidden", or nullopt. A light
+  /// that is stamped too far ahead of `now` is none.
   std::optional<std::string> blind(Time now) const;
 
  private:
+  bool varies() const;
+  /// Counts samples in a row that differ a little although the body rests.
+  void watch_noise(const Eigen::Isometry3d& tracker_T_body, bool rests);
+
   std::string body_;
   Duration timeout_;
   Time last_;
+  std::optional<Sighting> newest_;  // of those that were seen anew
+  int differing_ = 0;               // in a row
   std::string reason_;
 };
 

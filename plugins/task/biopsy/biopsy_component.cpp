@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/measured_markers.hpp"
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
@@ -155,6 +156,9 @@ class BiopsyComponent final : public Component {
   void ask(Time now) {
     const msg::NeedlePlan& plan = *begun_with_;
     const msg::MeasuredMarkers& markers = parameters_.touch_markers ? touches_ : *markers_.latest();
+    if (const auto wrong = wrong_with(markers, kBaseFrame)) {
+      return task_.see_refused_registration(*wrong, now);
+    }
     registration_.ask({.robot_frame = std::string{kBaseFrame},
                        .image_markers = plan.markers_(),
                        .robot_markers = markers.points_(),

@@ -28,8 +28,21 @@ class BiopsyComponentTest : public testing::Test {
     write_zones({{"head", {0, 0, 0}, {0, 0, 0}, 0.045}}, plan.head_());
     task_.send("plan", plan);
     msg::MeasuredMarkers markers;
+    write_header(markers.header_(), Time{}, kBaseFrame);
     assign(markers.points_().emplace_back(), Eigen::Vector3d{7, 8, 9});
     task_.send("markers", markers);
+  }
+  /// Of markers that come before anything is asked.
+  std::string refusal_of_markers(std::string_view frame, double error_m) {
+    msg::MeasuredMarkers markers;
+    write_header(markers.header_(), Time{}, frame);
+    markers.error_(error_m);
+    task_.send("markers", markers);
+    task_.step(now_s_ += 0.02);
+    EXPECT_TRUE(task_.take<msg::RegistrationRequest>("request").empty());
+    const auto state = task_.take<msg::TaskState>("state").back();
+    EXPECT_EQ(state.state_(), "refused");
+    return state.detail_();
   }
   msg::RegistrationRequest asked() {
     task_.step(now_s_ += 0.02);
@@ -78,10 +91,24 @@ TEST_F(BiopsyComponentTest, AsksForARegistrationOfUnorderedMarkersOnceItHasThem)
 TEST_F(BiopsyComponentTest, AnErrorThatIsToldWithTheMarkersCounts) {
   show_head();
   msg::MeasuredMarkers markers;
+  write_header(markers.header_(), Time{}, kBaseFrame);
   assign(markers.points_().emplace_back(), Eigen::Vector3d{7, 8, 9});
   markers.error_(0.0012);
   task_.send("markers", markers);
   EXPECT_DOUBLE_EQ(asked().marker_error_(), 0.0012);
+}
+
+TEST_F(BiopsyComponentTest, MarkersInAnotherFrameAreRefusedWithItsName) {
+  show_head();
+  EXPECT_EQ(refusal_of_markers("camera", 0),
+            "the markers are stated in frame 'camera', not in 'base'");
+}
+
+TEST_F(BiopsyComponentTest, MarkersWithAnErrorThatIsNoneAreRefused) {
+  show_head();
+  EXPECT_EQ(refusal_of_markers(kBaseFrame, -0.001),
+            "the error of the markers is stated as -1 mm; state how far each is expected to be "
+            "off, or 0 when that is not known");
 }
 
 TEST_F(BiopsyComponentTest, SendsTheRegisteredTargetAsAGoal) {

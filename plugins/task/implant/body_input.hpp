@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -17,11 +18,15 @@
 
 namespace armature::task::implant {
 
-/// The topic of one body. A body without a name is taken for it; another one is not.
+/// The topic of one body. A body without a name is taken for it; another one is not, nor is one in
+/// another frame than the tracker's, in which all bodies are stated, or one whose spheres do not
+/// fit.
 class BodyInput {
  public:
-  BodyInput(Setup& setup, const std::string& port, std::string body)
-      : bodies_{setup.input<msg::TrackedBody>(port)}, expected_{std::move(body)} {}
+  BodyInput(Setup& setup, const std::string& port, std::string body, double max_fit_error_m)
+      : bodies_{setup.input<msg::TrackedBody>(port)},
+        expected_{std::move(body)},
+        max_fit_error_m_{max_fit_error_m} {}
 
   std::size_t size() const { return bodies_.size(); }
   Sighting operator[](std::size_t i) const { return as(i, expected_); }
@@ -39,7 +44,9 @@ class BodyInput {
       return sighting;
     }
     const Eigen::Isometry3d pose = to_eigen(body.pose_());
-    if (const auto wrong = wrong_with(pose)) {
+    if (const auto off = defect(body)) {
+      sighting.reason = *off;
+    } else if (const auto wrong = wrong_with(pose)) {
       sighting.reason = "its pose " + *wrong;
     } else {
       sighting.tracker_T_body = pose;
@@ -48,8 +55,23 @@ class BodyInput {
   }
 
  private:
+  std::optional<std::string> defect(const msg::TrackedBody& body) const {
+    constexpr const char* kTrackerFrame = "tracker";
+    const std::string& frame = body.header_().frame_id_();
+    if (frame != kTrackerFrame) {
+      return fmt::format("its pose is stated in frame '{}', not in '{}'", frame, kTrackerFrame);
+    }
+    const double error_m = body.fit_error_();
+    if (error_m >= 0 && error_m <= max_fit_error_m_) return std::nullopt;
+    return fmt::format("its spheres fit to {:.4g} mm rms, {}", 1e3 * error_m,
+                       error_m > max_fit_error_m_
+                           ? fmt::format("'max_fit_error_mm' is {:g}", 1e3 * max_fit_error_m_)
+                           : "which is no error");
+  }
+
   Input<msg::TrackedBody> bodies_;
   std::string expected_;
+  double max_fit_error_m_;
 };
 
 }  // namespace armature::task::implant

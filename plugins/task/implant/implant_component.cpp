@@ -9,6 +9,7 @@
 
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/measured_markers.hpp"
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"
@@ -29,6 +30,7 @@ namespace armature::task::implant {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
+constexpr const char* kJawFrame = "jaw";
 
 /// A path's blends reach half-way to the next key pose: what is left of the stand-off is straight.
 Parameters parameters_of(const Params& params) {
@@ -70,9 +72,9 @@ class ImplantComponent final : public Component {
         robot_{robot_of(setup)},
         mount_{flange_of(robot_)},
         task_{parameters_, robot_, mount_.flange_T_tool},
-        flange_{setup, "flange", parameters_.flange_body},
-        jaw_{setup, "jaw", parameters_.jaw_body},
-        pivot_{setup, "pivot", parameters_.pivot_body},
+        flange_{setup, "flange", parameters_.flange_body, parameters_.max_fit_error},
+        jaw_{setup, "jaw", parameters_.jaw_body, parameters_.max_fit_error},
+        pivot_{setup, "pivot", parameters_.pivot_body, parameters_.max_fit_error},
         handpiece_js_{setup.input<msg::JointState>("handpiece_js")},
         measured_js_{setup.input<msg::JointState>("measured_js")},
         plan_{setup.input<msg::ImplantPlan>("plan")},
@@ -171,12 +173,17 @@ class ImplantComponent final : public Component {
   }
 
   void ask(Time now) {
+    const msg::MeasuredMarkers& markers = *markers_.latest();
+    if (const auto wrong = wrong_with(markers, kJawFrame)) {
+      return task_.see_refused_registration(*wrong);
+    }
     std::vector<msg::Point> sites;
     for (const msg::Pose& site : begun_with_->sites_()) sites.push_back(site.position_());
-    registration_.ask({.robot_frame = markers_.latest()->header_().frame_id_(),
+    registration_.ask({.robot_frame = markers.header_().frame_id_(),
                        .image_markers = begun_with_->markers_(),
-                       .robot_markers = markers_.latest()->points_(),
-                       .targets = sites},
+                       .robot_markers = markers.points_(),
+                       .targets = sites,
+                       .marker_error = markers.error_()},
                       now);
   }
 

@@ -230,6 +230,48 @@ TEST_F(ImplantComponentTest, AnotherBodyOnATopicDoesNotCountAsSeen) {
             "the body 'flange', not of 'drill'");
 }
 
+TEST_F(ImplantComponentTest, ABodyInAnotherFrameOrWithoutAFitDoesNotCountAsSeen) {
+  const auto reason = [&](const std::string& frame, double fit_error_m) {
+    ComponentHarness task{built_plugins(), this->task("med7.yaml")};
+    task.step(now_s_);
+    msg::TrackedBody wrong = body(Isometry3d::Identity());
+    wrong.header_().frame_id_(frame);
+    wrong.fit_error_(fit_error_m);
+    task.send("pivot", wrong);
+    task.step(now_s_ + 0.6);
+    return task.take<msg::TaskState>("state").back().detail_();
+  };
+  const std::string unseen = "pivot: the tracker has not seen the drill in the hand for 0.60 s: ";
+  EXPECT_EQ(reason("base", 0), unseen + "its pose is stated in frame 'base', not in 'tracker'");
+  EXPECT_EQ(reason("", 0), unseen + "its pose is stated in frame '', not in 'tracker'");
+  EXPECT_EQ(reason("tracker", 0.05),
+            unseen + "its spheres fit to 50 mm rms, 'max_fit_error_mm' is 1");
+  EXPECT_EQ(reason("tracker", NAN), unseen + "its spheres fit to nan mm rms, which is no error");
+  EXPECT_EQ(reason("tracker", -0.0001),
+            unseen + "its spheres fit to -0.1 mm rms, which is no error");
+  EXPECT_EQ(reason("tracker", 0.0009).find("not seen"), std::string::npos);
+}
+
+TEST_F(ImplantComponentTest, MarkersInAnotherFrameAreRefused) {
+  show_plan();
+  msg::MeasuredMarkers markers;
+  write_header(markers.header_(), Time{}, "camera");
+  task_.send("markers", markers);
+  go_to("refused");
+  EXPECT_EQ(state_.detail_(), "the markers are stated in frame 'camera', not in 'jaw'");
+  EXPECT_TRUE(task_.take<msg::RegistrationRequest>("request").empty());
+}
+
+TEST_F(ImplantComponentTest, AnErrorThatIsToldWithTheMarkersCounts) {
+  show_plan();
+  msg::MeasuredMarkers markers;
+  write_header(markers.header_(), Time{}, "jaw");
+  markers.error_(0.0012);
+  task_.send("markers", markers);
+  go_to("registering");
+  EXPECT_DOUBLE_EQ(asked().marker_error_(), 0.0012);
+}
+
 TEST_F(ImplantComponentTest, APlanWithoutSitesIsRefused) {
   task_.send("plan", msg::ImplantPlan{});
   task_.step(now_s_);

@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 const std::string kCameras = source_file("configs/dental_lamp_cameras.yaml");
 const std::string kPlayed = source_file("configs/overlays/played_cameras.yaml");
 
+const std::string kScene = "components.scene.params.";
+
 class LampWithCameras : public testing::Test {
  protected:
   ~LampWithCameras() override { fs::remove(recording_); }
@@ -72,7 +74,7 @@ TEST_F(LampWithCameras, GoesWhereItWentWhenItsPicturesArePlayedAgain) {
 /// Until shortly after the lamp has seen the face.
 DeploymentRun with_fault(const std::vector<std::string>& scene) {
   std::vector<std::string> settings{kSimulated, "run.time_limit_s=8"};
-  for (const std::string& one : scene) settings.push_back("components.scene.params." + one);
+  for (const std::string& one : scene) settings.push_back(kScene + one);
   return run_deployment({.settings = settings});
 }
 
@@ -84,6 +86,21 @@ TEST(LampWhoseCameras, FreezeSaysWhichOneAndAlignsToNoPictureOfIt) {
         << run.text();
     EXPECT_EQ(run.status(), "goals_missed") << run.text();
   }
+}
+
+TEST(LampWhoseCameras, FreezeWhileThePatientMovesStaysWhereItIsAndSaysWhy) {
+  const DeploymentRun run = run_deployment(
+      {.settings = {kSimulated, "run.time_limit_s=14", "components.report.params.expect_move=true",
+                    kScene + "move_at_s=7", kScene + "move_duration_s=3",
+                    kScene + "move_mm=[0, 200, 0]", kScene + "frozen=right",
+                    kScene + "frozen_at_s=7.2"}});
+  const std::string told = run.command.err + run.command.out;
+  const std::size_t aligned = told.find("holding");
+  ASSERT_NE(aligned, std::string::npos) << told;
+  EXPECT_NE(told.find(": no picture could be used for 2 s: the right camera is frozen"),
+            std::string::npos)
+      << told;
+  EXPECT_EQ(told.find("searching", aligned), std::string::npos) << told;
 }
 
 TEST(LampWhoseCameras, DriftIsWarnedWhileItsGoalsAreStillMet) {

@@ -27,6 +27,16 @@ void FaceWatch::see(const Picture& picture, Time now) {
   picture_came_ = now;
 }
 
+void FaceWatch::see(const Verdict& verdict) {
+  if (!verdict.refusal.empty()) see_no_estimate(verdict.refusal);
+  if (verdict.can_be_used) {
+    unusable_.reset();
+    return;
+  }
+  unusable_ = {.since = unusable_ ? unusable_->since : verdict.stamp, .why = verdict.refusal};
+  begins_at_ = verdict.stamp;
+}
+
 bool FaceWatch::see(const FaceEstimate& estimate) {
   if (std::exchange(measurements_, estimate.measurements) == estimate.measurements) return false;
   if (estimate.measurements < parameters_.min_measurements) {
@@ -53,12 +63,14 @@ void FaceWatch::see_no_estimate(const std::string& why) {
 
 bool FaceWatch::begins_to_move() const { return moving_ >= kBeginsToMove; }
 
-bool FaceWatch::is_blind(Time since, Time now) const {
-  return is_longer_than_lost(std::max(picture_came_, since), now);
-}
-
-std::string FaceWatch::blindness() const {
-  return fmt::format("no picture has come for {:g} s", parameters_.lost);
+std::string FaceWatch::blindness(Time since, Time now) const {
+  if (is_longer_than_lost(std::max(picture_came_, since), now)) {
+    return fmt::format("no picture has come for {:g} s", parameters_.lost);
+  }
+  if (unusable_ && is_longer_than_lost(std::max(unusable_->since, since), now)) {
+    return fmt::format("no picture could be used for {:g} s: {}", parameters_.lost, unusable_->why);
+  }
+  return {};
 }
 
 bool FaceWatch::lost(Time since) const {

@@ -17,6 +17,13 @@ struct Picture {
   double image_intensity = 0, face_intensity = 0;  // mean grey values
 };
 
+/// What the face pose estimator says of a picture.
+struct Verdict {
+  Time stamp;
+  std::string refusal = {};  // why there is no pose, or ""
+  bool can_be_used = true;   // else the picture tells of no face, whether one is there or not
+};
+
 /// What the cameras say of the face: whether pictures come, whether one shows a face, and whether
 /// an estimate of it is believed, which takes a few measurements, one after the other.
 class FaceWatch {
@@ -28,6 +35,7 @@ class FaceWatch {
   /// True where it is a new measurement of a face that is confirmed. What is predicted over
   /// pictures without a measurement is none: `latest()` at a later time predicts better.
   bool see(const FaceEstimate& estimate);
+  void see(const Verdict& verdict);
   /// Why a picture gave no estimate.
   void see_no_estimate(const std::string& why);
 
@@ -40,15 +48,16 @@ class FaceWatch {
   bool is_still() const { return still_ > 0; }
   bool stays_still() const { return still_ >= parameters_.settle_frames; }
 
-  /// No picture has come for `lost_s` after `since`.
-  bool is_blind(Time since, Time now) const;
-  /// What is_blind says, in words.
-  std::string blindness() const;
-  /// The pictures have shown no face for `lost_s` after `since`. Where none come it is not lost.
+  /// No picture has come for `lost_s` after `since`, or none that can be used, and why; or "".
+  std::string blindness(Time since, Time now) const;
+  /// The newest picture that was judged cannot be used.
+  bool is_unusable() const { return unusable_.has_value(); }
+  /// The pictures have shown no face for `lost_s` after `since`. Where none come, or none that can
+  /// be used, it is not lost.
   bool lost(Time since) const;
   /// Why a face that is in the pictures has not been believed for `lost_s` after `since`; or "".
   std::string disbelief(Time since) const;
-  /// The same of the newest picture with a face, in the reason's own words.
+  /// Why the newest picture with a face gave no estimate, or "".
   const std::string& refusal() const { return refusal_; }
   void forget_refusal() { refusal_.clear(); }
   /// Why the newest picture gave no estimate, or "".
@@ -67,8 +76,13 @@ class FaceWatch {
   int moving_ = 0, still_ = 0;  // estimates in a row that say so
   Time picture_at_, picture_came_;
   Time face_at_;       // the newest picture with a face, believed or not
-  Time begins_at_;     // the first picture after a time without any
+  Time begins_at_;     // the first picture after a time without any, or the newest unusable one
   bool face_ = false;  // in the newest picture
+  struct Unusable {
+    Time since;  // all pictures
+    std::string why;
+  };
+  std::optional<Unusable> unusable_;
   std::string no_estimate_, refusal_;
 };
 

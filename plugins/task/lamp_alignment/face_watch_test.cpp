@@ -18,6 +18,13 @@ class FaceWatchTest : public testing::Test {
   void measure(int measurements) {
     watch_.see(FaceEstimate{.stamp = now_, .measurements = measurements});
   }
+  /// The same of pictures that show no face, and none of which can be used.
+  void see_unusable(double for_s, const std::string& why) {
+    for (double s = 0; s < for_s - 1e-9; s += 0.1) {
+      see(0.1, false);
+      watch_.see(Verdict{.stamp = now_, .refusal = why, .can_be_used = false});
+    }
+  }
   void wait(double for_s) { now_ = now_ + seconds(for_s); }
 
   FaceWatch watch_{Parameters{}};
@@ -37,16 +44,15 @@ TEST_F(FaceWatchTest, WithoutPicturesNoFaceIsLost) {
   see(5, true);
   wait(60);
   EXPECT_FALSE(watch_.lost(begin_));
-  EXPECT_TRUE(watch_.is_blind(begin_, now_));
-  EXPECT_FALSE(watch_.is_blind(now_, now_)) << "the cameras were told to look just now";
-  EXPECT_EQ(watch_.blindness(), "no picture has come for 2 s");
+  EXPECT_EQ(watch_.blindness(begin_, now_), "no picture has come for 2 s");
+  EXPECT_EQ(watch_.blindness(now_, now_), "") << "the cameras were told to look just now";
 }
 
 TEST_F(FaceWatchTest, TheFirstPictureAfterAGapBeginsTheWaitAnew) {
   see(5, true);
   wait(60);
   see(0.1, false);
-  EXPECT_FALSE(watch_.is_blind(begin_, now_));
+  EXPECT_EQ(watch_.blindness(begin_, now_), "");
   EXPECT_FALSE(watch_.lost(begin_));
   see(2.1, false);
   EXPECT_TRUE(watch_.lost(begin_));
@@ -63,6 +69,31 @@ TEST_F(FaceWatchTest, AFaceThatIsSeenIsNotLostThoughItIsNotBelieved) {
   wait(60);
   measure(6);
   EXPECT_EQ(watch_.disbelief(begin_), "");
+}
+
+TEST_F(FaceWatchTest, PicturesThatCannotBeUsedTellOfNoFaceThatIsLost) {
+  see(5, true);
+  see_unusable(1.9, "the left camera is frozen");
+  EXPECT_EQ(watch_.blindness(begin_, now_), "");
+  see_unusable(60, "the right camera is frozen");
+  EXPECT_FALSE(watch_.lost(begin_));
+  EXPECT_EQ(watch_.blindness(begin_, now_),
+            "no picture could be used for 2 s: the right camera is frozen");
+  EXPECT_EQ(watch_.blindness(now_, now_), "") << "the cameras were told to look just now";
+  wait(3);
+  EXPECT_EQ(watch_.blindness(begin_, now_), "no picture has come for 2 s");
+}
+
+TEST_F(FaceWatchTest, TheFirstPictureThatCanBeUsedAgainBeginsTheWaitAnew) {
+  see(5, true);
+  see_unusable(10, "the left camera is frozen");
+  see(0.1, false);
+  watch_.see(Verdict{.stamp = now_, .refusal = "no face in the left image"});
+  EXPECT_EQ(watch_.blindness(begin_, now_), "");
+  see(1.9, false);
+  EXPECT_FALSE(watch_.lost(begin_));
+  see(0.2, false);
+  EXPECT_TRUE(watch_.lost(begin_));
 }
 
 TEST_F(FaceWatchTest, ARefusalOfAPictureWithoutAFaceIsNone) {

@@ -99,14 +99,14 @@ void LampAlignment::see(const FaceEstimate& estimate) {
 }
 
 std::string LampAlignment::trouble() const {
-  if (blind_) return face_.blindness();
+  if (!blindness_.empty()) return blindness_;
   return trouble_.empty() ? light_trouble_ : trouble_;
 }
 
 void LampAlignment::step(Time now) {
   if (!capture_) captures_since_.reset();
   if (capture_ && !captures_since_) captures_since_ = now;
-  blind_ = captures_since_ && face_.is_blind(*captures_since_, now);
+  blindness_ = captures_since_ ? face_.blindness(*captures_since_, now) : "";
   if (procedure_.paused()) return;
   switch (phase_) {
     case Phase::checking_light:

@@ -38,6 +38,7 @@ class LampAlignment {
 
   void see(const Picture& picture, Time now);
   void see(const FaceEstimate& estimate);
+  void see(const Verdict& verdict) { face_.see(verdict); }
   /// Why a picture gave no estimate.
   void see_no_estimate(const std::string& why) { face_.see_no_estimate(why); }
   void hear(const GoalReport& report, Time now) { goals_.hear(report, now); }
@@ -108,8 +109,7 @@ class LampAlignment {
   int pictures_ = 0;              // in this view
   bool face_in_picture_ = false;  // in one of them
   std::optional<double> new_level_;
-  bool blind_ = false;  // no pictures come
-  std::string trouble_, light_trouble_;
+  std::string blindness_, trouble_, light_trouble_;
 };
 
 /// "checking light", "searching", ...

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "armature/kinds/face_pose/face_pose.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/motion/goal_messages.hpp"
@@ -39,6 +40,13 @@ Parameters parameters_of(const Params& params) {
   return parameters;
 }
 
+Verdict verdict_of(const msg::FacePose& face) {
+  const bool is_bad_input = face.code_() == static_cast<std::uint8_t>(FaceRefusal::bad_input);
+  return {.stamp = stamp_of(face.header_().stamp_()),
+          .refusal = face.valid_() ? std::string{} : face.reason_(),
+          .can_be_used = face.valid_() || !is_bad_input};
+}
+
 /// What the cameras see from the search poses, when the deployment has cameras.
 std::optional<SearchCoverage> coverage_of(Setup& setup, const Parameters& parameters) {
   const auto rig = optional_rig_of(setup);
@@ -58,6 +66,7 @@ class LampAlignmentComponent : public Component {
         coverage_{coverage_of(setup, parameters_of(setup.params()))},
         target_{setup.input<msg::Target>("target")},
         landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
+        face_{setup.input<msg::FacePose>("face")},
         motion_status_{setup.input<msg::MotionStatus>("motion_status")},
         goal_{setup.output<msg::MotionGoal>("goal")},
         light_level_{setup.output<msg::LightLevel>("light_level")},
@@ -93,6 +102,7 @@ class LampAlignmentComponent : public Component {
                         .face_intensity = seen.face_intensity_()},
                 now);
     }
+    for (std::size_t i = 0; i < face_.size(); ++i) task_.see(verdict_of(face_[i]));
     for (std::size_t i = 0; i < target_.size(); ++i) {
       const auto face = estimate_of(target_[i]);
       if (!face) {
@@ -149,6 +159,7 @@ class LampAlignmentComponent : public Component {
   std::optional<SearchCoverage> coverage_;
   Input<msg::Target> target_;
   Input<msg::FaceLandmarks> landmarks_;
+  Input<msg::FacePose> face_;
   Input<msg::MotionStatus> motion_status_;
   Output<msg::MotionGoal> goal_;
   Output<msg::LightLevel> light_level_;

@@ -211,6 +211,27 @@ TEST_F(LampAlignmentComponentTest, SaysWhyItLostAFace) {
       "searching 1/9: the face was lost: the mouth would be 0.150 m away, outside 0.2 to 3 m");
 }
 
+TEST_F(LampAlignmentComponentTest, StaysWhileTheFacePoseCannotUseThePicturesAndSaysWhy) {
+  step();
+  task_.send("target", face());
+  step();
+  report(1, 1);
+  report(1, 2);
+  const std::size_t goals = goals_.size();
+  for (int k = 0; k < 300; ++k) {
+    see_picture(100);
+    msg::FacePose refused;
+    write_header(refused.header_(), Time{} + seconds(now_s_), "left_camera_optical");
+    refused.code_(2);
+    refused.reason_("the right camera is frozen");
+    task_.send("face", refused);
+    step();
+  }
+  EXPECT_EQ(goals_.size(), goals);
+  EXPECT_EQ(task_.lines().back(),
+            "aligning: no picture could be used for 2 s: the right camera is frozen");
+}
+
 TEST_F(LampAlignmentComponentTest, CountsItsGoalsFromWhereTheMotionIs) {
   step();
   report(41, 2);

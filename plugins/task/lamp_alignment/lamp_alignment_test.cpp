@@ -151,36 +151,6 @@ TEST_F(LampAlignmentTest, HoldsWhileAFaceIsSeenButNotBelievedAndSaysWhy) {
   EXPECT_TRUE(run_until(Phase::searching, 3)) << "no face is in the pictures any more";
 }
 
-TEST_F(LampAlignmentTest, StaysWhereItIsWhenNoPicturesComeAndSaysSo) {
-  ASSERT_TRUE(run_until(Phase::holding, 15));
-  has_cameras_ = false;
-  const std::size_t goals = goals_.size();
-  run(60);
-  EXPECT_EQ(task_.phase(), Phase::holding);
-  EXPECT_EQ(goals_.size(), goals) << "a camera without a cable is no patient who has gone";
-  EXPECT_EQ(task_.trouble(), "no picture has come for 2 s");
-  has_cameras_ = true;
-  run(0.5);
-  EXPECT_EQ(task_.trouble(), "");
-  EXPECT_EQ(task_.phase(), Phase::holding);
-}
-
-TEST_F(LampAlignmentTest, SaysInTheSearchAndAtTheLightThatNoPicturesCome) {
-  has_cameras_ = false;
-  run(3);
-  EXPECT_EQ(task_.phase(), Phase::checking_light);
-  EXPECT_EQ(task_.trouble(), "no picture has come for 2 s");
-  has_cameras_ = true;
-  ASSERT_TRUE(run_until(Phase::searching, 1));
-  has_cameras_ = false;
-  run(5);
-  EXPECT_EQ(task_.phase(), Phase::searching);
-  EXPECT_EQ(task_.trouble(), "no picture has come for 2 s");
-  has_cameras_ = true;
-  EXPECT_TRUE(run_until(Phase::holding, 15));
-  EXPECT_EQ(task_.trouble(), "");
-}
-
 TEST_F(LampAlignmentTest, OutOfReachOfAFaceThatIsSeenButNotBelievedItStaysToo) {
   ASSERT_TRUE(run_until(Phase::aligning, 10));
   mouth_.x() = 3;

@@ -72,6 +72,10 @@ void LampAlignment::search(Time now) {
     }
     return;
   }
+  if (face_.is_unusable()) {
+    pictures_ = 0;
+    return;
+  }
   const int enough = parameters_.frames_per_view + (face_in_picture_ ? kPicturesForEstimate : 0);
   if (pictures_ < enough) return;
   const std::string& refusal = face_.refusal();

@@ -79,8 +79,8 @@ bool FaceWatch::lost(Time since) const {
 
 std::string FaceWatch::disbelief(Time since) const {
   if (!is_longer_than_lost(known_since(since), picture_at_)) return {};
-  return "a face is seen but not believed: " +
-         (refusal_.empty() ? "nobody tells where it is" : refusal_);
+  const std::string& why = refusal_.empty() ? no_estimate_ : refusal_;
+  return "a face is seen but not believed: " + (why.empty() ? "nobody tells where it is" : why);
 }
 
 }  // namespace armature::task::lamp_alignment

@@ -56,6 +56,7 @@ class FaceWatch {
   /// be used, it is not lost.
   bool lost(Time since) const;
   /// Why a face that is in the pictures has not been believed for `lost_s` after `since`; or "".
+  /// The reason is that of the newest picture with a face, or of the newest one that has any.
   std::string disbelief(Time since) const;
   /// Why the newest picture with a face gave no estimate, or "".
   const std::string& refusal() const { return refusal_; }

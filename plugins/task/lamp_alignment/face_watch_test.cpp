@@ -96,6 +96,24 @@ TEST_F(FaceWatchTest, TheFirstPictureThatCanBeUsedAgainBeginsTheWaitAnew) {
   EXPECT_TRUE(watch_.lost(begin_));
 }
 
+TEST_F(FaceWatchTest, AFaceThatComesAndGoesIsNotBelievedForTheReasonOfThePictureBefore) {
+  see(1, true);
+  measure(3);
+  for (int k = 0; k < 30; ++k) {
+    see(0.1, false);
+    watch_.see(Verdict{.stamp = now_, .refusal = "no face in the right image"});
+    see(0.1, true);
+    measure(3);  // a prediction
+  }
+  EXPECT_EQ(watch_.disbelief(begin_),
+            "a face is seen but not believed: no face in the right image");
+  watch_.see(Verdict{.stamp = now_, .refusal = "too little of the right eye is seen"});
+  see(0.1, false);
+  watch_.see(Verdict{.stamp = now_, .refusal = "no face in the right image"});
+  EXPECT_EQ(watch_.disbelief(begin_),
+            "a face is seen but not believed: too little of the right eye is seen");
+}
+
 TEST_F(FaceWatchTest, ARefusalOfAPictureWithoutAFaceIsNone) {
   see(0.1, false);
   watch_.see_no_estimate("no face in the picture");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The lamp with cameras: 1. the deployment for real ones is right as it is shipped, 2. pictures
 // that a run has recorded, played into it, move the arm exactly as they did then, 3. cameras that
-// freeze are refused and named, those that drift are told of.
+// freeze are refused and named, those that drift or are exchanged are told of.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -101,6 +101,16 @@ TEST(LampWhoseCameras, FreezeWhileThePatientMovesStaysWhereItIsAndSaysWhy) {
             std::string::npos)
       << told;
   EXPECT_EQ(told.find("searching", aligned), std::string::npos) << told;
+}
+
+TEST(LampWhoseCameras, AreExchangedAsksForItAtTheEndOfARoundOfTheSearch) {
+  const DeploymentRun run =
+      run_deployment({.settings = {kSimulated, "run.time_limit_s=18",
+                                   "components.scene.out={left_image: right/image_raw, "
+                                   "right_image: left/image_raw}"}});
+  const std::string told = run.command.err + run.command.out;
+  EXPECT_NE(told.find("are the left and the right camera exchanged?"), std::string::npos) << told;
+  EXPECT_EQ(told.find("aligning"), std::string::npos) << told;
 }
 
 TEST(LampWhoseCameras, DriftIsWarnedWhileItsGoalsAreStillMet) {

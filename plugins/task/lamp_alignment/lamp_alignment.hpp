@@ -72,6 +72,7 @@ class LampAlignment {
   void search_for_lost_face(Time now);
   void next_view();
   void search(Time now);
+  std::string reason_to_leave();
   void leave_failed_view(Time now);
   void wait_for_a_view(Time now);
   void align_with(const FaceEstimate& estimate, Phase phase, Time now);
@@ -103,6 +104,7 @@ class LampAlignment {
   std::optional<Time> captures_since_;
   std::size_t pose_ = 0, views_looked_at_ = 0;
   std::size_t failed_views_ = 0;             // one after the other
+  std::vector<std::string> faceless_;        // why views of this round showed no face, each once
   bool looking_ = false, sets_out_ = false;  // to the first view of a search
   Time looking_since_, goal_set_at_;
   int refused_ = 0;               // goals in a row, on the way to a face

@@ -300,6 +300,21 @@ TEST_F(LampAlignmentTest, TellsOfAViewThatItLeavesThatAFaceWasSeenThereAndWhyItW
   EXPECT_EQ(task_.trouble(), "") << "none was seen there";
 }
 
+TEST_F(LampAlignmentTest, TellsAtTheEndOfARoundWhyNoViewGaveAFaceEachReasonOnce) {
+  present_ = false;
+  std::vector<std::string> told;
+  for (int k = 0; k < 1500; ++k) {
+    no_face_ = task_.view() == 4 ? "on the wrong side" : "no face in the left image";
+    tick();
+    if (told.empty() ? !task_.trouble().empty() : told.back() != task_.trouble())
+      told.push_back(task_.trouble());
+  }
+  ASSERT_GE(told.size(), 3u);
+  EXPECT_EQ(told[0], "no view gave a face: no face in the left image; on the wrong side");
+  EXPECT_EQ(told[1], "");
+  EXPECT_EQ(told[2], told[0]);
+}
+
 TEST_F(LampAlignmentTest, TellsWhyTheFaceWasLost) {
   ASSERT_TRUE(run_until(Phase::holding, 15));
   present_ = false;

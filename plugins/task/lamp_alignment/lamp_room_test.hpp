@@ -78,7 +78,9 @@ class LampAlignmentTest : public testing::Test {
     const bool seen = in_view && !(flickers_ && ++pictures_ % 2 == 0);
     const double gray = gain_ * (100 + 200 * light_);
     task_.see(Picture{now_, seen, gray, gray}, now_);
-    task_.see(Verdict{.stamp = now_, .refusal = unusable_, .can_be_used = unusable_.empty()});
+    task_.see(Verdict{.stamp = now_,
+                      .refusal = unusable_.empty() && !seen ? no_face_ : unusable_,
+                      .can_be_used = unusable_.empty()});
     if (!in_view) measurements_ = 0;
     if (seen && believed_ && unusable_.empty())
       task_.see(FaceEstimate{.stamp = now_,
@@ -102,6 +104,7 @@ class LampAlignmentTest : public testing::Test {
   bool has_cameras_ = true, present_ = true, believed_ = true, predicts_ = false, flickers_ = false,
        stopped_ = false;
   std::string unusable_;  // why no picture can be used
+  std::string no_face_;   // why none is in a picture
   int measurements_ = 0, pictures_ = 0;
   double reach_m_ = 10, gain_ = 1, light_ = 0;
   double noise_m_ = 0.0005, noise_rad_ = 0.01;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The search for a face: from view to view, until one is seen and believed.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "lamp_alignment.hpp"
@@ -20,6 +22,7 @@ void LampAlignment::start_search(Time now) {
   phase_ = Phase::searching;
   trouble_.clear();
   views_looked_at_ = failed_views_ = 0;
+  faceless_.clear();
   pose_ = 0;
   if (goal_estimate_) pose_ = nearest_pose(poses_, -goal_estimate_->normal);
   pose_ = (pose_ + poses_.size() - 1) % poses_.size();
@@ -78,11 +81,24 @@ void LampAlignment::search(Time now) {
   }
   const int enough = parameters_.frames_per_view + (face_in_picture_ ? kPicturesForEstimate : 0);
   if (pictures_ < enough) return;
-  const std::string& refusal = face_.refusal();
-  trouble_ = refusal.empty() ? ""
-                             : fmt::format("in view {} a face was seen but not believed: {}",
-                                           views_looked_at_, refusal);
+  trouble_ = reason_to_leave();
   next_view();
+}
+
+/// Why the view has given no face; what the views without any have told, once they all have been
+/// looked at.
+std::string LampAlignment::reason_to_leave() {
+  const std::string& reason = face_.no_estimate();
+  if (!face_in_picture_ && !reason.empty() &&
+      std::ranges::find(faceless_, reason) == faceless_.end())
+    faceless_.push_back(reason);
+  const bool ends_round = views_looked_at_ == poses_.size();
+  const auto told = ends_round ? std::exchange(faceless_, {}) : std::vector<std::string>{};
+  if (!face_.refusal().empty()) {
+    return fmt::format("in view {} a face was seen but not believed: {}", views_looked_at_,
+                       face_.refusal());
+  }
+  return told.empty() ? "" : fmt::format("no view gave a face: {}", fmt::join(told, "; "));
 }
 
 void LampAlignment::leave_failed_view(Time now) {

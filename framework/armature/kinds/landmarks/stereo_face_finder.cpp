@@ -83,6 +83,18 @@ bool can_be_one_face(const PixelBox& in_right, const PixelBox& in_left) {
          std::abs(centre(in_right).y() - centre(in_left).y()) < kStripSlack * in_left.height;
 }
 
+/// The rows and columns of the right picture where the face must be that the left one has so.
+PixelBox strip_of(const PixelBox& in_left) {
+  return {in_left.left - kMaxDisparity * in_left.width, in_left.top - kStripSlack * in_left.height,
+          (kMaxDisparity + 1.2) * in_left.width, (1 + 2 * kStripSlack) * in_left.height};
+}
+
+/// The box as far on the other side of `in_left`.
+PixelBox mirrored(PixelBox box, const PixelBox& in_left) {
+  box.left = 2 * in_left.left + in_left.width - box.right();
+  return box;
+}
+
 /// Moves the face's box as its landmarks have moved and grown since the last pair.
 void follow(const FaceLandmarks& found, StereoFaceFinder::State::Face& face) {
   Eigen::Vector2d middle = Eigen::Vector2d::Zero();
@@ -134,7 +146,14 @@ std::optional<Reason> StereoFaceFinder::detect_both(const ImageView& left, const
   state.left = State::Face{.where = **in_left};
   const Faces in_right = find_right(right, box(last.right), state.left->where.box);
   if (!in_right) return in_right.error();
-  if (!*in_right) return Reason{"no face in the right image"};
+  if (!*in_right) {
+    const Faces aside = find_on_wrong_side(right, state.left->where.box);
+    if (!aside) return aside.error();
+    return Reason{*aside
+                      ? "a face is in both pictures, but on the wrong side: are the left and the "
+                        "right camera exchanged?"
+                      : "no face in the right image"};
+  }
   state.right = State::Face{.where = **in_right};
   return std::nullopt;
 }
@@ -165,12 +184,22 @@ StereoFaceFinder::Faces StereoFaceFinder::find_right(const ImageView& right,
     if (!near || *near) return near;
   }
   const auto to_left = [&](const PixelBox& face) { return difference(face, in_left); };
-  const PixelBox strip{
-      in_left.left - kMaxDisparity * in_left.width, in_left.top - kStripSlack * in_left.height,
-      (kMaxDisparity + 1.2) * in_left.width, (1 + 2 * kStripSlack) * in_left.height};
-  const Faces in_strip = detect(right, {.box = strip, .face_width = in_left.width}, to_left);
+  const Faces in_strip =
+      detect(right, {.box = strip_of(in_left), .face_width = in_left.width}, to_left);
   if (!in_strip || *in_strip) return in_strip;
   return detect(right, {.box = whole(right), .face_width = {}}, to_left);
+}
+
+// Where the pictures are exchanged the same face is as far to the right as it should be to the
+// left.
+StereoFaceFinder::Faces StereoFaceFinder::find_on_wrong_side(const ImageView& right,
+                                                             const PixelBox& in_left) {
+  const auto to_left = [&](const PixelBox& face) {
+    const PixelBox should_be = mirrored(face, in_left);
+    return can_be_one_face(should_be, in_left) ? difference(should_be, in_left) : kImpossible;
+  };
+  return detect(right, {.box = mirrored(strip_of(in_left), in_left), .face_width = in_left.width},
+                to_left);
 }
 
 /// The face that costs least; nothing when there is none that is possible.

@@ -47,8 +47,9 @@ class StereoFaceFinder {
   StereoFaceFinder(FaceDetector& detector, LandmarkFinder& landmarks, const Options& options)
       : detector_{detector}, landmarks_{landmarks}, options_{options} {}
 
-  /// The landmarks in both pictures, or why not ("no face in the left image"). A face that is not
-  /// found is forgotten. Allocates.
+  /// The landmarks in both pictures, or why not ("no face in the left image"). A face that is
+  /// further right in the right picture is none of this pair: the reason asks whether the cameras
+  /// are exchanged. A face that is not found is forgotten. Allocates.
   Expected<StereoLandmarks> find(const ImageView& left, const ImageView& right, State& state);
 
  private:
@@ -57,6 +58,7 @@ class StereoFaceFinder {
   Faces find_left(const ImageView& left, const std::optional<PixelBox>& last);
   Faces find_right(const ImageView& right, const std::optional<PixelBox>& last,
                    const PixelBox& in_left);
+  Faces find_on_wrong_side(const ImageView& right, const PixelBox& in_left);
   using Cost = std::function<double(const PixelBox& face)>;
   Faces detect(const ImageView& image, const SearchRegion& region, const Cost& cost);
   Expected<FaceLandmarks> landmarks(const ImageView& original, const ImageView& stretched,

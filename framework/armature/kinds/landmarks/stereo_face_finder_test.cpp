@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A face in a stereo pair: 1. it is sought where it was last, then everywhere, 2. of several faces
 // it keeps to the one it has, 3. the right picture is searched in the rows of the left one, 4. dark
-// pictures are stretched and their brightness is told as it was, 5. what is missing is said.
+// pictures are stretched and their brightness is told as it was, 5. what is missing is said, and
+// where the pictures may be exchanged.
 #include "armature/kinds/landmarks/stereo_face_finder.hpp"
 
 #include <gtest/gtest.h>
@@ -149,8 +150,18 @@ TEST_F(StereoFaceFinderTest, TakesTheSameFaceInBothPicturesWhenTwoAreThere) {
 
 TEST_F(StereoFaceFinderTest, AFaceThatIsFurtherRightInTheRightPictureIsAnotherOne) {
   detector_.left = {face(200, 100, 80)};
-  detector_.right = {face(260, 100, 80)};
-  EXPECT_EQ(find().error().text, "no face in the right image");
+  detector_.right = {face(260, 100, 55), face(260, 200, 80)};
+  EXPECT_EQ(find().error().text, "no face in the right image") << "of another size, in other rows";
+}
+
+TEST_F(StereoFaceFinderTest, AFaceOnTheWrongSideAsksWhetherTheCamerasAreExchanged) {
+  detector_.left = {face(150, 100, 80)};
+  detector_.right = {face(230, 103, 85)};
+  EXPECT_EQ(find().error().text,
+            "a face is in both pictures, but on the wrong side: are the left and the right camera "
+            "exchanged?");
+  std::swap(detector_.left, detector_.right);
+  EXPECT_TRUE(find());
 }
 
 TEST_F(StereoFaceFinderTest, SearchesTheRightPictureInTheRowsOfTheLeftOneAndThenEverywhere) {

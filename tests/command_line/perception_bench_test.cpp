@@ -150,6 +150,9 @@ TEST(BenchPerception, RefusesWhatItCannotMeasure) {
   std::filesystem::remove(rig);
   EXPECT_THAT(refusal({"--face-pose", "face_pose/three_points"}),
               HasSubstr("did you mean 'face_pose/three_point'"));
+  const std::string of_no_name = refusal({"dental_lamp", "--landmarks", "landmarks/nope"});
+  EXPECT_THAT(of_no_name, HasSubstr("unknown plugin 'landmarks/nope'; known: landmarks/"));
+  EXPECT_THAT(of_no_name, Not(HasSubstr("arm/simulated")));
   EXPECT_THAT(refusal({"--group", "roof"}),
               HasSubstr("no group has 'roof' in its name; these are there:\n  frontal\n"));
   EXPECT_THAT(refusal({"--detector", "landmarks/dlib68"}),

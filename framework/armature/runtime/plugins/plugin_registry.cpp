@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <span>
 #include <sstream>
 
 #include "armature/config/problems.hpp"
@@ -16,6 +17,23 @@
 #include "armature/runtime/plugins/processor_level.hpp"
 
 namespace armature {
+namespace {
+
+/// The ids that are near to a wrong one, or those of the same family, or the first ones.
+std::string meant_by(std::string_view wrong, std::span<const PluginManifest> plugins) {
+  const std::string_view family = wrong.substr(0, wrong.find('/') + 1);  // "ik/"
+  std::vector<std::string> ids, of_family;
+  for (const auto& plugin : plugins) {
+    ids.push_back(plugin.id);
+    if (!family.empty() && plugin.id.starts_with(family)) of_family.push_back(plugin.id);
+  }
+  const std::string meant = config::did_you_mean(wrong, ids);
+  const bool is_near = meant.find("did you mean") != std::string::npos;
+  return is_near || of_family.empty() ? meant : config::did_you_mean(wrong, of_family);
+}
+
+}  // namespace
+
 std::vector<std::filesystem::path> PluginRegistry::default_search_path() {
   std::vector<std::filesystem::path> path;
   if (const char* variable = std::getenv("ARMATURE_PLUGIN_PATH")) {
@@ -156,13 +174,12 @@ const PluginManifest* PluginRegistry::host_of(std::string_view kind) const {
 
 std::string PluginRegistry::unknown_text(std::string_view id) const {
   if (id.empty()) return "a plugin is named by its id, family/name, and not by an empty text";
-  std::vector<std::string> ids, folders;
-  for (const auto& plugin : plugins_) ids.push_back(plugin.id);
+  std::vector<std::string> folders;
   for (const auto& folder : search_path_) {
     const bool there = std::filesystem::is_directory(folder);
     folders.push_back(folder.string() + (there ? "" : " (no such folder)"));
   }
-  const std::string meant = config::did_you_mean(id, ids);
+  const std::string meant = meant_by(id, plugins_);
   std::string text =
       fmt::format("unknown plugin '{}'{}; searched {}", id, meant, fmt::join(folders, ", "));
   if (search_path_.size() == 1 && meant.find("did you mean") == std::string::npos) {

@@ -90,6 +90,7 @@ void check_fallback(const ParamSpec& spec, Problems& problems) {
   const Node given = Node::map({{spec.name, origin, *spec.fallback}}, origin);
   ParamSpec required = spec;
   required.fallback.reset();
+  required.optional = true;                // an empty text stands for none
   required.below = required.at_most = "";  // which takes another one
   Params::read({required}, &given, "", problems);
 }

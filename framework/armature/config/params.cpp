@@ -16,6 +16,16 @@ using config::Node;
 using config::Origin;
 using Type = ParamSpec::Type;
 
+namespace {
+
+/// An empty text for a parameter that nothing else stands for.
+bool is_missing_text(const ParamSpec& spec, const config::Value& value) {
+  const auto* text = std::get_if<std::string>(&value);
+  return text && text->empty() && !spec.fallback && !spec.optional;
+}
+
+}  // namespace
+
 Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
                     std::string_view plugin_id, config::Problems& problems, const Origin& place) {
   const bool is_given = given && (given->kind() != Node::Kind::null || !given->text().empty());
@@ -31,6 +41,10 @@ Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
     Value value{spec.type, read.value.value_or(config::zero_of(spec.type)),
                 read.node ? read.node->origin() : place, read.is_written};
     if (read.node && !read.value) is_sound = false;
+    if (read.value && read.node && is_missing_text(spec, *read.value)) {
+      problems.add(read.node->origin(),
+                   fmt::format("'{}' is empty, and has no default", spec.name));
+    }
     if (read.value && spec.type == Type::choice) {
       const auto& text = std::get<std::string>(value.value);
       value.choice =

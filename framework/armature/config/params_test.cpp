@@ -154,6 +154,17 @@ TEST(Parameters, OfTypeFileStartAtTheFolderOfTheFileThatSaysThem) {
   EXPECT_EQ(Params::read(specs_of(kTable), &option, "x", problems).file("model"), "m.dat");
 }
 
+TEST(Parameters, WithoutADefaultThatAreTextsOrFilesAreNotEmpty) {
+  const auto specs =
+      specs_of("device: {type: text}\nvolume: {type: file}\nlabel: {type: text, default: \"\"}\n");
+  const Node given = parse_text("device: \"\"\nvolume: \"\"\nlabel: \"\"\n", "lamp.yaml");
+  Problems problems;
+  Params::read(specs, &given, "camera/mine", problems);
+  EXPECT_EQ(text_of(problems),
+            "lamp.yaml:1:9: 'device' is empty, and has no default\n"
+            "lamp.yaml:2:9: 'volume' is empty, and has no default\n");
+}
+
 TEST(Parameters, OfTypeFileNameNoDevice) {
   Problems problems;
   read("{seed: 7, model: /dev/zero}", problems);

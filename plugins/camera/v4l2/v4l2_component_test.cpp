@@ -46,6 +46,8 @@ TEST(V4l2, NeedsADevice) {
       refusal_of(built_plugins(), {.component = "{plugin: camera/v4l2}", .robot = {}, .rig = {}})
           .find("device"),
       std::string::npos);
+  EXPECT_NE(refusal_of(built_plugins(), device("''")).find("'device' is empty, and has no default"),
+            std::string::npos);
 }
 
 }  // namespace

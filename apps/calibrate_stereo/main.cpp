@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program behind `armature calibrate stereo`, which gives it its options as one JSON object.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +28,7 @@ using Json = nlohmann::ordered_json;
 constexpr int kOk = 0, kFailed = 1, kInvalid = 3;  // as the command line's exit codes are
 constexpr double kOutlier = 3;                     // times the median of a pair's residual
 constexpr double kWellCovered = 0.7;
+constexpr double kMaxRms = 2, kMaxRowError = 3;  // [px]; sound pictures leave some tenths
 
 /// How far the rows of a corner's two rectified pixels are apart: rms and the worst [px].
 struct RowErrors {
@@ -56,16 +58,24 @@ RowErrors row_errors(const stereo::StereoCalibration& calibration,
   return errors;
 }
 
-void warn(const stereo::StereoFit& fit, const BoardPictures& pictures, const Json& told) {
+/// Names the pairs that fit worse than the others.
+std::vector<std::string> warn_of_outliers(const stereo::StereoFit& fit,
+                                          const BoardPictures& pictures) {
   std::vector<double> sorted = fit.view_rms_px;
   std::ranges::sort(sorted);
   const double median = sorted[sorted.size() / 2];
+  std::vector<std::string> outliers;
   for (std::size_t i = 0; i < fit.view_rms_px.size(); ++i) {
     if (fit.view_rms_px[i] <= kOutlier * median) continue;
+    outliers.push_back(pictures.names[i]);
     fmt::print(stderr,
                "{}: {:.3f} px remain, and {:.3f} px in the middle of all pairs; leave it out\n",
                pictures.names[i], fit.view_rms_px[i], median);
   }
+  return outliers;
+}
+
+void warn_of_coverage(const Json& told) {
   for (const char* side : {"left_coverage", "right_coverage"}) {
     if (told[side].get<double>() >= kWellCovered) continue;
     fmt::print(
@@ -73,6 +83,16 @@ void warn(const stereo::StereoFit& fit, const BoardPictures& pictures, const Jso
         "{}: corners in {:.0f} % of the picture; hold the board into its rims and corners, too\n",
         side, 100 * told[side].get<double>());
   }
+}
+
+/// Throws for pictures that contradict each other: no pair of cameras sees them so.
+[[noreturn]] void refuse_contradiction(const std::string& what,
+                                       const std::vector<std::string>& outliers) {
+  const std::string hint =
+      outliers.empty() ? "no pair is worse than the others: was the board flat and still, and are "
+                         "the two pictures of a pair of one moment?"
+                       : fmt::format("leave out {}", fmt::join(outliers, ", "));
+  throw std::runtime_error(fmt::format("nothing is written: {}; {}", what, hint));
 }
 
 double rounded(double value) { return std::stod(fmt::format("{:.4g}", value)); }
@@ -121,10 +141,22 @@ int calibrate(const Json& options) {
       corners_of(shape, square_m), pictures.views,
       {.width = pictures.width, .height = pictures.height, .with_k3 = options["with_k3"]});
   if (!fit) throw std::runtime_error(fit.error().text);
+  const std::vector<std::string> outliers = warn_of_outliers(*fit, pictures);
+  if (std::max(fit->left_rms_px, fit->right_rms_px) > kMaxRms) {
+    refuse_contradiction(fmt::format("{:.3f} px rms remain in the left pictures and {:.3f} px in "
+                                     "the right ones, {} at most are taken",
+                                     fit->left_rms_px, fit->right_rms_px, kMaxRms),
+                         outliers);
+  }
   const auto made = stereo::rectification_of(fit->calibration);
   if (!made) throw std::runtime_error(made.error().text);
   const Json figures = told(pictures, *fit, *made);
-  warn(*fit, pictures, figures);
+  if (const double row = figures["row_error_max_px"]; row > kMaxRowError) {
+    refuse_contradiction(
+        fmt::format("rows are up to {} px apart, {} at most are taken", row, kMaxRowError),
+        outliers);
+  }
+  warn_of_coverage(figures);
 
   std::string comment =
       fmt::format("# armature calibrate stereo, a board of {} x {} corners, {:g} mm apart\n",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature calibrate stereo`: pictures of a board before two bent cameras that are known, as
 // files, to a calibration and a rig that a deployment takes.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -20,7 +21,7 @@ namespace armature::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Eigen::Vector3d;
+using Eigen::Vector3d, testing::ContainsRegex;
 
 constexpr int kAcross = 640, kDown = 480;
 constexpr double kSquare = 0.025;
@@ -132,6 +133,34 @@ TEST(CalibrateStereo, NamesPicturesWithoutTheBoardAndRefusesTooFew) {
                 "0 pairs show the board to both cameras; 3 are the least, 15 or more are good"),
             std::string::npos)
       << result.err;
+}
+
+TEST(CalibrateStereo, WritesNothingFromPicturesThatContradictEachOtherAndNamesThem) {
+  const DrawnBoards boards{15};
+  const std::string rig = boards.path("rig.yaml"), right = boards.path("right/6.png");
+  const cv::Mat picture = cv::imread(right, cv::IMREAD_GRAYSCALE);
+  const auto refusal = [&] {
+    const CommandResult result = calibrate(boards, {"--board", "9", "6", "--rig", rig});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.out, "");
+    EXPECT_FALSE(fs::exists(boards.path("head.yaml")));
+    EXPECT_FALSE(fs::exists(rig));
+    return result.err;
+  };
+  fs::copy_file(boards.path("right/1.png"), right, fs::copy_options::overwrite_existing);
+  EXPECT_THAT(refusal(), ContainsRegex("nothing is written: .* px rms remain in the left pictures "
+                                       ".*, 2 at most are taken; leave out 6.png\n"));
+  // Of one pair among fifteen, 8 rows hardly show in the rms of all.
+  cv::Mat shifted = picture.clone();
+  picture.rowRange(8, kDown).copyTo(shifted.rowRange(0, kDown - 8));
+  cv::imwrite(right, shifted);
+  EXPECT_THAT(refusal(), ContainsRegex("nothing is written: rows are up to .* px apart, 3 at most "
+                                       "are taken; leave out 6.png\n"));
+
+  fs::remove(right);
+  const CommandResult sound = calibrate(boards, {"--board", "9", "6", "--json"});
+  ASSERT_EQ(sound.exit_code, 0) << sound.err;
+  EXPECT_LT(nlohmann::json::parse(sound.out)["row_error_max_px"], 1);
 }
 
 TEST(CalibrateStereo, RefusesAFolderThatIsNotThere) {

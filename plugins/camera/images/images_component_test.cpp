@@ -104,6 +104,21 @@ TEST_F(ImagesTest, APictureThatCannotBeReadEndsTheRunWithItsName) {
           ": it is not a picture that can be read; bad_pictures: skip leaves such a picture out");
 }
 
+TEST_F(ImagesTest, AJpegThatIsCutOffEndsTheRunWithItsName) {
+  for (const char* name : {"left/0.jpg", "right/0.jpg", "left/1.jpg", "right/1.jpg"}) {
+    files_.write_stripes(name);
+  }
+  const std::string cut = files_.path("right/1.jpg");
+  std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 3);
+  ComponentHarness images{built_plugins(), options("")};
+  images.step(0);
+  images.step(0.1);
+  EXPECT_TRUE(images.component().finished());
+  EXPECT_EQ(images.figures().status, "refused");
+  EXPECT_TRUE(images.figures().reason.starts_with(cut + ": a JPEG cannot be unpacked: "))
+      << images.figures().reason;
+}
+
 TEST_F(ImagesTest, PicturesThatCannotBeUsedAreLeftOutNamedAndCounted) {
   write_pairs(4);
   files_.write_text("left/1.png", "no PNG");

@@ -160,5 +160,30 @@ TEST_F(FolderPicturesTest, TellsAFileThatIsNoPictureWhenItsTurnComes) {
             files_.path("right/a.png") + ": it is not a picture that can be read");
 }
 
+TEST_F(FolderPicturesTest, RefusesAPictureOfWhichTheRestIsMissingInEveryFormat) {
+  // A cut JPEG whose missing rows are filled with grey looks like a picture.
+  for (const std::string ending : {".jpg", ".png", ".bmp", ".ppm", ".tif"}) {
+    SCOPED_TRACE(ending);
+    const std::string name = "left/a" + ending;
+    files_.write_stripes(name);
+    ASSERT_TRUE(read_picture(files_.path(name)));
+    std::filesystem::resize_file(files_.path(name),
+                                 std::filesystem::file_size(files_.path(name)) / 3);
+    const auto cut = read_picture(files_.path(name));
+    ASSERT_FALSE(cut);
+    EXPECT_TRUE(cut.error().text.starts_with(files_.path(name) + ": ")) << cut.error().text;
+  }
+}
+
+TEST_F(FolderPicturesTest, ReadsAJpegWithBytesBehindItsEndAsItWas) {
+  files_.write_stripes("left/a.jpg");
+  const auto expected = cv::imread(files_.path("left/a.jpg"), cv::IMREAD_GRAYSCALE);
+  std::ofstream{files_.path("left/a.jpg"), std::ios::app | std::ios::binary} << "and more";
+  const auto read = read_picture(files_.path("left/a.jpg"));
+  ASSERT_TRUE(read) << read.error().text;
+  ASSERT_EQ(read->width, expected.cols);
+  EXPECT_TRUE(std::ranges::equal(read->pixels, std::span{expected.data, expected.total()}));
+}
+
 }  // namespace
 }  // namespace armature::pictures

@@ -13,6 +13,8 @@
 #include <opencv2/imgproc.hpp>
 #include <string_view>
 
+#include "jpeg_decoder.hpp"
+
 namespace armature::pictures {
 namespace {
 
@@ -39,10 +41,27 @@ GrayPicture picture_of(const cv::Mat& gray) {
   return picture;
 }
 
+tl::unexpected<Reason> refuse_size(int width, int height) {
+  return refuse(fmt::format("it has {} x {} pixels; a side may have {}", width, height, kMaxSide));
+}
+
+/// OpenCV fills the rows that a JPEG lacks with grey, and says nothing.
+Expected<GrayPicture> decode_jpeg(std::span<const std::uint8_t> bytes) {
+  jpeg::JpegDecoder decoder;
+  const auto size = decoder.size_of(bytes);
+  if (!size) return tl::unexpected{size.error()};
+  if (std::max(size->width, size->height) > kMaxSide) return refuse_size(size->width, size->height);
+  GrayPicture picture{.width = size->width, .height = size->height, .pixels = {}};
+  const auto decoded = decoder.decode_gray(bytes, size->width, size->height, picture.pixels);
+  if (!decoded) return tl::unexpected{decoded.error()};
+  return picture;
+}
+
 }  // namespace
 
 Expected<GrayPicture> decode_picture(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return refuse("it is empty");
+  if (jpeg::is_jpeg(bytes)) return decode_jpeg(bytes);
   cv::Mat gray;
   try {
     const cv::Mat file{1, static_cast<int>(bytes.size()), CV_8UC1,
@@ -52,10 +71,7 @@ Expected<GrayPicture> decode_picture(std::span<const std::uint8_t> bytes) {
     return refuse("it is not a picture that can be read: " + error.err);
   }
   if (gray.empty()) return refuse("it is not a picture that can be read");
-  if (std::max(gray.cols, gray.rows) > kMaxSide) {
-    return refuse(
-        fmt::format("it has {} x {} pixels; a side may have {}", gray.cols, gray.rows, kMaxSide));
-  }
+  if (std::max(gray.cols, gray.rows) > kMaxSide) return refuse_size(gray.cols, gray.rows);
   return picture_of(gray);
 }
 

@@ -18,7 +18,8 @@ struct GrayPicture {
 };
 
 /// The picture of a file (PNG, JPEG, PGM, BMP, TIFF), colours turned grey, as the sensor had it:
-/// what a file says of its orientation is not followed. The reason names the file.
+/// what a file says of its orientation is not followed. Refuses a file of which a part is missing
+/// or damaged. The reason names the file.
 Expected<GrayPicture> read_picture(const std::filesystem::path& file);
 /// The same of a message: mono8, rgb8, bgr8, rgba8, bgra8.
 Expected<GrayPicture> gray_picture_of(const msg::Image& image);

@@ -32,6 +32,18 @@ class PictureFolder {
     std::filesystem::create_directories((path_ / name).parent_path());
     ASSERT_TRUE(cv::imwrite(path(name), cv::Mat{height, width, CV_8UC1, cv::Scalar::all(grey)}));
   }
+  /// A coloured picture of 160 x 120 pixels that does not compress to nothing.
+  void write_stripes(const std::string& name) const {
+    std::filesystem::create_directories((path_ / name).parent_path());
+    cv::Mat picture(120, 160, CV_8UC3);
+    for (int v = 0; v < picture.rows; ++v) {
+      for (int u = 0; u < picture.cols; ++u) {
+        picture.at<cv::Vec3b>(v, u) = {static_cast<std::uint8_t>(7 * u * v), 90,
+                                       static_cast<std::uint8_t>(13 * u)};
+      }
+    }
+    ASSERT_TRUE(cv::imwrite(path(name), picture));
+  }
   void write_text(const std::string& name, const std::string& text) const {
     std::filesystem::create_directories((path_ / name).parent_path());
     std::ofstream{path_ / name} << text;

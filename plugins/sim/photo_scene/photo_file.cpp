@@ -49,8 +49,10 @@ Expected<scene::GrayImage> decoded(const std::vector<std::uint8_t>& bytes,
   const auto decode = reinterpret_cast<DecodePhoto*>(dlsym(library.get(), kDecodePhoto));
   if (!decode) return refuse("cannot decode the photo " + file + ": " + dlerror());
   scene::GrayImage image;
-  if (bytes.empty() || !decode(bytes, image)) {
-    return refuse(file + " is not an image that can be read");
+  std::string why;
+  if (bytes.empty()) return refuse(file + " is not an image that can be read: it is empty");
+  if (!decode(bytes, image, why)) {
+    return refuse(file + " is not an image that can be read: " + why);
   }
   return image;
 }

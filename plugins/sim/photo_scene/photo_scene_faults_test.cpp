@@ -4,10 +4,13 @@
 // flickers; 6. round heads and their truth, 7. photos of one's own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
 #include <cstdint>
 #include <cstdlib>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
@@ -209,6 +212,24 @@ TEST(PhotoSceneFaults, PhotosAndPartsThatCannotBeAreRefusedWithTheWayOut) {
   EXPECT_THAT(refusal("motion_px: [1e9, 0]"), HasSubstr("must be from -200 to 200"));
   EXPECT_EQ(refusal("dropped: 0.7, repeated: 0.6"),
             "dropped and repeated are parts of all pairs, and 0.7 + 0.6 is more than 1");
+}
+
+TEST(PhotoSceneFaults, APhotoThatIsCutOffIsRefused) {
+  const std::string file = std::filesystem::temp_directory_path() /
+                           ("armature-photo-" + std::to_string(getpid()) + ".jpg");
+  const auto refusal = [&] {
+    return refusal_of(built_plugins(),
+                      scene_with("photo: file, photo_file: " + file +
+                                 ", photo_eyes_px: [50, 40, 90, 40], photo_mouth_px: [70, 90]"));
+  };
+  cv::Mat stripes(120, 160, CV_8UC3);
+  for (int v = 0; v < stripes.rows; ++v) stripes.row(v).setTo(cv::Scalar::all(97 * v % 256));
+  ASSERT_TRUE(cv::imwrite(file, stripes));
+  EXPECT_EQ(refusal(), "");
+  std::filesystem::resize_file(file, std::filesystem::file_size(file) / 3);
+  EXPECT_THAT(refusal(), HasSubstr(file + " is not an image that can be read: a JPEG cannot be "
+                                          "unpacked: "));
+  std::filesystem::remove(file);
 }
 
 }  // namespace

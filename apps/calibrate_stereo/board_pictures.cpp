@@ -44,7 +44,11 @@ BoardPictures read_board_pictures(const std::filesystem::path& left,
         break;
       }
       check_size(found, *picture, file->string());
-      auto board = chessboard::find_board(picture->pixels, picture->width, picture->height, shape);
+      // The right camera's board begins where the left one's does.
+      const Eigen::Vector2d towards =
+          view.left.empty() ? Eigen::Vector2d{1, 1} : view.left.back() - view.left.front();
+      auto board =
+          chessboard::find_board(picture->pixels, picture->width, picture->height, shape, towards);
       if (!board) {
         why = fmt::format("{}: {}", file->string(), board.error().text);
         break;

@@ -63,6 +63,31 @@ Corners in_rows(const CornerGrid& grid, const std::vector<SaddlePoint>& points,
   return corners;
 }
 
+/// The same board of equal sides, counted from its next corner on.
+Corners quarter_turned(const Corners& corners, int side) {
+  Corners turned;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      turned.push_back(corners[static_cast<std::size_t>((side - 1 - column) * side + row)]);
+    }
+  }
+  return turned;
+}
+
+/// Of all ways to count a board whose colours tell no beginning, the one whose last corner lies
+/// farthest in the direction `towards` from its first one.
+Corners counted_towards(Corners corners, const BoardShape& shape, const Vector2d& towards) {
+  std::vector<Corners> ways{corners};
+  if (shape.columns == shape.rows) {
+    for (int i = 0; i < 3; ++i) ways.push_back(quarter_turned(ways.back(), shape.columns));
+  } else {
+    std::ranges::reverse(corners);
+    ways.push_back(std::move(corners));
+  }
+  return *std::ranges::max_element(
+      ways, {}, [&](const Corners& way) { return towards.dot(way.back() - way.front()); });
+}
+
 double brightness(const cv::Mat& gray, const Vector2d& at) {
   const int u = static_cast<int>(std::lround(at.x())), v = static_cast<int>(std::lround(at.y()));
   const cv::Rect around = cv::Rect{u - 1, v - 1, 3, 3} & cv::Rect{0, 0, gray.cols, gray.rows};
@@ -105,7 +130,7 @@ void refine(const cv::Mat& gray, Corners& corners, const BoardShape& shape) {
 }  // namespace
 
 Expected<Corners> find_board(std::span<const std::uint8_t> pixels, int width, int height,
-                             const BoardShape& shape) {
+                             const BoardShape& shape, const Vector2d& towards) {
   constexpr std::size_t kCandidates = 4, kSeeds = 40;
   const cv::Mat gray{height, width, CV_8UC1, const_cast<std::uint8_t*>(pixels.data())};
   const std::size_t corners_of_board = static_cast<std::size_t>(shape.corners());
@@ -130,9 +155,11 @@ Expected<Corners> find_board(std::span<const std::uint8_t> pixels, int width, in
   }
   Corners corners = in_rows(*board, points, shape);
   const bool told_by_colour = (shape.columns + shape.rows) % 2 != 0;
-  const bool turn = told_by_colour ? !begins_black(gray, corners, shape)
-                                   : corners.back().sum() < corners.front().sum();
-  if (turn) std::ranges::reverse(corners);
+  if (!told_by_colour) {
+    corners = counted_towards(std::move(corners), shape, towards);
+  } else if (!begins_black(gray, corners, shape)) {
+    std::ranges::reverse(corners);
+  }
   refine(gray, corners, shape);
   return corners;
 }

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <random>
 
 #include "armature/robot/geometry/rotation.hpp"
@@ -84,6 +85,47 @@ TEST(Chessboard, WhoseCountsAreBothEvenBeginsAtTheUpperLeft) {
     auto expected = camera().corners(pose, even, kSquare);
     if (expected.back().sum() < expected.front().sum()) std::ranges::reverse(expected);
     EXPECT_LT(errors(*found, expected).worst, 0.25) << "yaw " << yaw;
+  }
+}
+
+TEST(Chessboard, WhoseSidesAreEqualHasTheRowsThatAreNearestToThePicturesRows) {
+  for (const BoardShape& equal : {BoardShape{7, 7}, BoardShape{6, 6}}) {
+    for (const double yaw : {-1.9, -0.4, 1.2, 3.0}) {
+      SCOPED_TRACE(std::to_string(equal.columns) + " a side, yaw " + std::to_string(yaw));
+      const Eigen::Isometry3d pose = board_at({0, 0, 0.42}, {0.2, -0.3, yaw}, equal);
+      const auto found =
+          find_board(camera().picture(pose, equal, kSquare, 2, 1), kAcross, kDown, equal);
+      ASSERT_TRUE(found) << found.error().text;
+      // The same board, seen by a camera that is turned by as many quarters.
+      const double quarters = std::round(yaw / (0.5 * std::numbers::pi));
+      Eigen::Isometry3d counted = pose;
+      const double side = kSquare * (equal.columns - 1);
+      const Eigen::Vector3d middle = pose * Eigen::Vector3d{0.5 * side, 0.5 * side, 0};
+      counted.linear() =
+          pose.linear() * rotation_from_rpy({0, 0, -0.5 * std::numbers::pi * quarters});
+      counted.translation() =
+          middle - counted.linear() * Eigen::Vector3d{0.5 * side, 0.5 * side, 0};
+      EXPECT_LT(errors(*found, camera().corners(counted, equal, kSquare)).worst, 0.3);
+    }
+  }
+}
+
+TEST(Chessboard, ThatDoesNotTellItsBeginningIsCountedAsInAnotherView) {
+  // Half way between two ways to count a small turn would decide; the other view does.
+  for (const auto& [shape, yaw] :
+       {std::pair{BoardShape{7, 7}, -0.79}, {BoardShape{6, 6}, 2.36}, {BoardShape{8, 6}, 1.73}}) {
+    SCOPED_TRACE(std::to_string(shape.columns) + " columns, yaw " + std::to_string(yaw));
+    const auto seen = [&](double turn, const Eigen::Vector2d& towards) {
+      const Eigen::Isometry3d pose = board_at({0, 0, 0.42}, {0.1, -0.2, turn}, shape);
+      return find_board(camera().picture(pose, shape, kSquare, 2, 1), kAcross, kDown, shape,
+                        towards);
+    };
+    const auto first = seen(yaw - 0.15, {1, 1});
+    ASSERT_TRUE(first) << first.error().text;
+    const auto second = seen(yaw + 0.15, first->back() - first->front());
+    ASSERT_TRUE(second) << second.error().text;
+    const double turned = 0.3 * 0.5 * (first->back() - first->front()).norm();  // the outermost
+    EXPECT_LT(errors(*first, *second).worst, 1.5 * turned) << "by another way to count, 4.7 times";
   }
 }
 

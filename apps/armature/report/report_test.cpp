@@ -11,6 +11,7 @@
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/recording_test.hpp"
 #include "exit_code.hpp"
+#include "report/reduced_recording.hpp"
 
 namespace armature {
 namespace {
@@ -255,6 +256,15 @@ TEST_F(ReportTest, RefusesWhatIsNoRecordingAndOneWithoutMessages) {
   EXPECT_NE(report(), kOk);
   EXPECT_THAT(reason_, HasSubstr("has no messages"));
   EXPECT_FALSE(std::filesystem::exists(out_.path()));
+}
+
+TEST_F(ReportTest, LeavesOutWhatComesToItsRecordingWhileItIsMade) {
+  record({{"/a", "std_msgs/msg/String", 100, 100}});
+  const RunContents before = read_contents(recording_.path());
+  record({{"/a", "std_msgs/msg/String", 150, 100}, {"/later", "std_msgs/msg/String", 10, 100}});
+  EXPECT_EQ(reduced(recording_.path(), before, true).messages, 100U);
+  record({{"/later", "std_msgs/msg/String", 10, 100}});
+  EXPECT_EQ(reduced(recording_.path(), before, true).messages, 0U) << "another one by that name";
 }
 
 TEST_F(ReportTest, SaysThatItsRecordingWasCutOff) {

@@ -121,7 +121,9 @@ TEST(PhotoFile, ThatCannotBeReadIsRefusedByName) {
   std::ofstream{broken} << "\x89PNG\r\n\x1a\n and then no chunk";
   const auto unreadable = read_photo(broken, {0, 0}, {1, 0}, {0, 1}, 0.063);
   ASSERT_FALSE(unreadable);
-  EXPECT_EQ(unreadable.error().text, broken + " is not an image that can be read");
+  EXPECT_EQ(unreadable.error().text, broken +
+                                         " is not an image that can be read: it is neither a "
+                                         "PNG nor a JPEG, or a part of it is missing");
 }
 
 }  // namespace

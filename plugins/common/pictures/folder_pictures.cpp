@@ -23,6 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double kMaxTime_s = 9e9;  // 64 bits of nanoseconds have 9.2e9 s
+constexpr double kMaxSpan_s = 1e6;
 constexpr std::array<std::string_view, 8> kEndings{".png", ".jpg", ".jpeg", ".pgm",
                                                    ".ppm", ".bmp", ".tif",  ".tiff"};
 
@@ -69,10 +71,18 @@ Files files_of(const fs::path& folder, std::string_view word, bool word_is_neede
   Files files;
   for (fs::directory_iterator at{folder, error}, end; !error && at != end; at.increment(error)) {
     std::string name = at->path().filename();
-    if (!is_picture(at->path()) || !at->is_regular_file()) continue;
+    std::error_code unknown;  // a link that leads nowhere is no file
+    if (!is_picture(at->path()) || !at->is_regular_file(unknown)) continue;
     const bool begins = name.starts_with(word);
     if (word_is_needed && !begins) continue;
-    files.emplace(begins ? name.substr(word.size()) : name, at->path());
+    const auto [same, is_new] = files.emplace(begins ? name.substr(word.size()) : name, at->path());
+    if (is_new) continue;
+    std::string other = same->second.filename();
+    if (other < name) std::swap(name, other);
+    throw SetupError(fmt::format(
+        "{}: '{}' and '{}' of the folder '{}' are one name behind the word '{}'; take one of them "
+        "away",
+        word, name, other, folder.string(), word));
   }
   if (error) {
     throw SetupError(fmt::format("{}: the folder '{}' cannot be read: {}", word, folder.string(),
@@ -95,6 +105,24 @@ std::string listed(const std::vector<std::string>& names) {
   const std::string more =
       names.size() > kShown ? fmt::format(" and {} more", names.size() - kShown) : "";
   return fmt::format("{}{}", fmt::join(shown, ", "), more);
+}
+
+/// Throws for two pairs of one time, and for times that cannot be seconds. `pairs` are sorted.
+void check_times(const std::vector<FilePair>& pairs, const fs::path& file) {
+  const double span_s = to_seconds(pairs.back().at - pairs.front().at);
+  if (span_s > kMaxSpan_s) {
+    throw SetupError(fmt::format(
+        "{}: '{}' and '{}' are {:g} s apart, more than {:g} s; seconds are asked for: are these "
+        "nanoseconds?",
+        file.string(), pairs.front().left.filename().string(),
+        pairs.back().left.filename().string(), span_s, kMaxSpan_s));
+  }
+  const auto twice = std::ranges::adjacent_find(pairs, {}, &FilePair::at);
+  if (twice != pairs.end()) {
+    throw SetupError(fmt::format("{}: '{}' and '{}' have the same time", file.string(),
+                                 twice->left.filename().string(),
+                                 std::next(twice)->left.filename().string()));
+  }
 }
 
 }  // namespace
@@ -154,6 +182,9 @@ void FolderPictures::read_times(const fs::path& file) {
     if (error != std::errc{} || end != time.data() + time.size() || !std::isfinite(at)) {
       wrong(fmt::format("'{}' is no time in seconds", time));
     }
+    if (std::abs(at) > kMaxTime_s) {
+      wrong(fmt::format("'{}' is beyond {:g} s, as nanoseconds would be", time, kMaxTime_s));
+    }
     if (!times.emplace(name, at).second) wrong(fmt::format("'{}' has a time already", name));
   }
   for (FilePair& pair : pairs_) {
@@ -166,12 +197,7 @@ void FolderPictures::read_times(const fs::path& file) {
     pair.at = Time{} + seconds(found->second - times.at(pairs_.front().left.filename()));
   }
   std::ranges::stable_sort(pairs_, {}, &FilePair::at);
-  const auto twice = std::ranges::adjacent_find(pairs_, {}, &FilePair::at);
-  if (twice != pairs_.end()) {
-    throw SetupError(fmt::format("{}: '{}' and '{}' have the same time", file.string(),
-                                 twice->left.filename().string(),
-                                 std::next(twice)->left.filename().string()));
-  }
+  check_times(pairs_, file);
 }
 
 std::optional<TimedPicture> FolderPictures::next() {

@@ -107,6 +107,11 @@ TEST_F(FolderPicturesTest, NamesTheLineOfAFileOfTimesThatIsWrong) {
        {std::pair{"a.png soon\n", ":1: 'soon' is no time in seconds; a line is 'NAME SECONDS'"},
         {"\na.png nan\n", ":2: 'nan' is no time in seconds; a line is 'NAME SECONDS'"},
         {"a.png\n", ":1: 'a.png' has not two words; a line is 'NAME SECONDS'"},
+        {"a.png 1600000000000000000\n",
+         ":1: '1600000000000000000' is beyond 9e+09 s, as nanoseconds would be; a line is 'NAME "
+         "SECONDS'"},
+        {"a.png -1e300\n",
+         ":1: '-1e300' is beyond 9e+09 s, as nanoseconds would be; a line is 'NAME SECONDS'"},
         {"a.png 1\na.png 2\n", ":2: 'a.png' has a time already; a line is 'NAME SECONDS'"},
         {"b.png 1\n", ": has no time for 'a.png'; write a line 'a.png SECONDS'"}}) {
     files_.write_text("times.txt", text);
@@ -117,6 +122,10 @@ TEST_F(FolderPicturesTest, NamesTheLineOfAFileOfTimesThatIsWrong) {
   files_.write_text("times.txt", "a.png 1\nb.png 1\n");
   EXPECT_EQ(refusal(options),
             files_.path("times.txt") + ": 'a.png' and 'b.png' have the same time");
+  files_.write_text("times.txt", "a.png 2100000000\nb.png 2000000000\n");
+  EXPECT_EQ(refusal(options), files_.path("times.txt") +
+                                  ": 'b.png' and 'a.png' are 1e+08 s apart, more than 1e+06 s; "
+                                  "seconds are asked for: are these nanoseconds?");
 }
 
 TEST_F(FolderPicturesTest, NamesFoldersWithoutPicturesAndPicturesWithoutAPartner) {
@@ -183,6 +192,38 @@ TEST_F(FolderPicturesTest, ReadsAJpegWithBytesBehindItsEndAsItWas) {
   ASSERT_TRUE(read) << read.error().text;
   ASSERT_EQ(read->width, expected.cols);
   EXPECT_TRUE(std::ranges::equal(read->pixels, std::span{expected.data, expected.total()}));
+}
+
+TEST_F(FolderPicturesTest, RefusesTwoFilesOfOneSideWithOneName) {
+  for (const char* name : {"left/left0003.png", "left/0003.png", "right/0003.png"}) {
+    files_.write(name, 1);
+  }
+  auto skipping = two_folders();
+  skipping.skip = true;
+  for (const auto& options : {two_folders(), skipping}) {
+    EXPECT_EQ(refusal(options), "left: '0003.png' and 'left0003.png' of the folder '" +
+                                    files_.path("left") +
+                                    "' are one name behind the word 'left'; take one of them away");
+  }
+}
+
+TEST_F(FolderPicturesTest, LinksThatLeadNowhereDoNotCount) {
+  for (const char* name : {"left/a.png", "right/a.png"}) files_.write(name, 1);
+  std::filesystem::create_symlink("round.png", files_.path("left/round.png"));
+  std::filesystem::create_symlink("gone.png", files_.path("right/lost.png"));
+  const FolderPictures pictures{two_folders()};
+  EXPECT_EQ(pictures.files().size(), 1U);
+  EXPECT_EQ(pictures.left_out(), 0U);
+}
+
+TEST_F(FolderPicturesTest, RefusesAPictureWithTooManyPixelsByItsName) {
+  files_.write_text("left/a.pgm", "P5 40000 40000 255\n");
+  const auto read = read_picture(files_.path("left/a.pgm"));
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().text,
+            files_.path("left/a.pgm") +
+                ": it is not a picture that can be read, or has too many pixels; a side may have "
+                "16384");
 }
 
 }  // namespace

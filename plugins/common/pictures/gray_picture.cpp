@@ -67,8 +67,10 @@ Expected<GrayPicture> decode_picture(std::span<const std::uint8_t> bytes) {
     const cv::Mat file{1, static_cast<int>(bytes.size()), CV_8UC1,
                        const_cast<std::uint8_t*>(bytes.data())};
     gray = cv::imdecode(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
-  } catch (const cv::Exception& error) {
-    return refuse("it is not a picture that can be read: " + error.err);
+  } catch (const cv::Exception&) {
+    return refuse(fmt::format(
+        "it is not a picture that can be read, or has too many pixels; a side may have {}",
+        kMaxSide));
   }
   if (gray.empty()) return refuse("it is not a picture that can be read");
   if (std::max(gray.cols, gray.rows) > kMaxSide) return refuse_size(gray.cols, gray.rows);

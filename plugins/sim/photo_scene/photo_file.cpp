@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <memory>
+#include <system_error>
 #include <vector>
 
 #include "photo_decoder.hpp"
@@ -62,6 +64,10 @@ Expected<scene::GrayImage> decoded(const std::vector<std::uint8_t>& bytes,
 Expected<scene::Photo> read_photo(const std::string& file, const Eigen::Vector2d& left_eye,
                                   const Eigen::Vector2d& right_eye, const Eigen::Vector2d& mouth,
                                   double eye_distance_m) {
+  std::error_code unknown;
+  if (std::filesystem::exists(file, unknown) && !std::filesystem::is_regular_file(file, unknown)) {
+    return refuse(file + " is no file; a photo is a PNG or JPEG");
+  }
   std::ifstream stream{file, std::ios::binary};
   if (!stream) return refuse("cannot open the photo " + file);
   const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>{stream}, {}};

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
@@ -229,6 +230,22 @@ TEST(PhotoSceneFaults, APhotoThatIsCutOffIsRefused) {
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 3);
   EXPECT_THAT(refusal(), HasSubstr(file + " is not an image that can be read: a JPEG cannot be "
                                           "unpacked: "));
+  std::filesystem::remove(file);
+}
+
+TEST(PhotoSceneFaults, APhotoThatIsAFolderOrHasTooManyPixelsIsRefusedByItsName) {
+  const auto refusal = [](const std::string& file) {
+    return refusal_of(built_plugins(),
+                      scene_with("photo: file, photo_file: " + file +
+                                 ", photo_eyes_px: [50, 40, 90, 40], photo_mouth_px: [70, 90]"));
+  };
+  const std::string file = std::filesystem::temp_directory_path() /
+                           ("armature-photo-" + std::to_string(getpid()) + ".pgm");
+  EXPECT_EQ(refusal("/usr"), "/usr is no file; a photo is a PNG or JPEG");
+  std::ofstream{file} << "P5 40000 40000 255\n";
+  EXPECT_EQ(refusal(file), file +
+                               " is not an image that can be read: it has too many pixels, or "
+                               "a part of it is missing");
   std::filesystem::remove(file);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <vector>
@@ -48,6 +49,26 @@ class Mcap : public testing::TestWithParam<bool> {
   const RecordingFile recording_{GetParam() ? "zstd" : "plain"};
   const fs::path file_ = recording_.path();
 };
+
+TEST_P(Mcap, HasOneWriterAtATime) {
+  write();
+  const std::string before = bytes();
+  std::optional<McapWriter> first{std::in_place, file_, McapWriter::Options{}};
+  write_all_but_the_end(*first, kMessages);
+  try {
+    McapWriter second{file_, {}};
+    ADD_FAILURE() << "both write " << file_;
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(std::string{error.what()},
+              "'" + file_.string() + "' is being written by another program");
+  }
+  first->close();
+  McapReader reader{file_};
+  EXPECT_EQ(read_whole_messages(reader), kMessages);
+  EXPECT_EQ(reader.problems(), std::vector<std::string>{});
+  write();
+  EXPECT_EQ(bytes(), before) << "a file that was closed may be replaced";
+}
 
 TEST_P(Mcap, IsReadAsItWasWritten) {
   write();

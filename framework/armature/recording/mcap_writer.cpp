@@ -18,6 +18,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "armature/recording/file_lock.hpp"
+
 namespace armature {
 namespace {
 
@@ -78,6 +80,15 @@ void make_private(int descriptor) {
   if (is_ours) fchmod(descriptor, 0600);
 }
 
+/// Takes away what a file had before; of what is no regular file there is nothing to take.
+void make_empty(int descriptor, const std::filesystem::path& file) {
+  struct stat about {};
+  if (fstat(descriptor, &about) == 0 && !S_ISREG(about.st_mode)) return;
+  if (ftruncate(descriptor, 0) == 0) return;
+  throw std::runtime_error(
+      fmt::format("cannot write '{}': {}", file.string(), std::generic_category().message(errno)));
+}
+
 }  // namespace
 
 class McapWriter::Zstd {
@@ -102,6 +113,13 @@ class McapWriter::Zstd {
 McapWriter::McapWriter(std::filesystem::path file, Options options)
     : file_{std::move(file)}, options_{std::move(options)}, zstd_{std::make_unique<Zstd>()} {
   create();
+  try {  // the destructor of what is not made does not run
+    lock_for_writing(descriptor_, file_);
+    make_empty(descriptor_, file_);
+  } catch (...) {
+    ::close(descriptor_);
+    throw;
+  }
   make_private(descriptor_);
   if (options_.chain) chain_.emplace();
   Bytes bytes;
@@ -117,7 +135,7 @@ McapWriter::McapWriter(std::filesystem::path file, Options options)
 void McapWriter::create() {
   constexpr int kMostOfOneName = 10'000;
   const std::filesystem::path named = file_;
-  const int if_there = options_.keeps_older ? O_EXCL : O_TRUNC;
+  const int if_there = options_.keeps_older ? O_EXCL : 0;
   for (int number = 2; number <= kMostOfOneName; ++number) {
     descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | if_there | O_CLOEXEC, 0600);
     if (descriptor_ >= 0) return;

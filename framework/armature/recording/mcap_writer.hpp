@@ -20,7 +20,8 @@ namespace armature ARMATURE_EXPORT {
 /// so that viewers seek in it, all in a chain of hashes. What stands in the file when the program
 /// dies, or the disk is full, is readable to its last chunk. Every function throws
 /// std::runtime_error with the file's name and the system's reason when writing fails, and the file
-/// takes nothing from then on. One thread at a time; not real-time safe.
+/// takes nothing from then on. A file that another
+/// writer has open is refused, and stays as it is. One thread at a time; not real-time safe.
 class McapWriter {
  public:
   struct Options {

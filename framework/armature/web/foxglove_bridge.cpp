@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <utility>
 
 #include "armature/values/json_text.hpp"
@@ -39,6 +41,17 @@ std::string beginning_of(std::string_view said) {
 Json json_of(Time time) {
   constexpr std::int64_t kSecond = 1'000'000'000;
   return {{"sec", time.ns / kSecond}, {"nsec", time.ns % kSecond}};
+}
+
+/// The id that a client has said. Throws std::invalid_argument unless it is a whole number of 32
+/// bits.
+std::uint32_t id_of(const nlohmann::json& said) {
+  if (said.is_number_unsigned() &&
+      said.get<std::uint64_t>() <= std::numeric_limits<std::uint32_t>::max()) {
+    return said.get<std::uint32_t>();
+  }
+  throw std::invalid_argument(fmt::format("an id is a whole number from 0 to 4294967295, not {}",
+                                          beginning_of(json_text(said))));
 }
 
 Time steady_now() {
@@ -135,15 +148,19 @@ void FoxgloveBridge::said(Client client, std::string_view text) {
     const std::string op = json.at("op");
     if (op == "subscribe") {
       for (const auto& one : json.at("subscriptions")) {
-        subscribe(client, one.at("id"), one.at("channelId"));
+        subscribe(client, id_of(one.at("id")), id_of(one.at("channelId")));
       }
     } else if (op == "unsubscribe") {
-      for (const auto& subscription : json.at("subscriptionIds")) unsubscribe(client, subscription);
+      for (const auto& subscription : json.at("subscriptionIds")) {
+        unsubscribe(client, id_of(subscription));
+      }
     } else {
       refuse_with(fmt::format("'{}' is not done here: a monitor only shows", beginning_of(op)));
     }
   } catch (const nlohmann::json::exception& error) {
     refuse_with(beginning_of(error.what()));
+  } catch (const std::invalid_argument& error) {
+    refuse_with(error.what());
   }
 }
 

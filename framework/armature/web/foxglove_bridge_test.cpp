@@ -116,6 +116,24 @@ TEST_F(FoxgloveBridgeTest, GivesAClientOneSubscriptionOfAChannel) {
   EXPECT_EQ(messages, (std::vector<std::string>{"bright", "dark"})) << "each of them once";
 }
 
+TEST_F(FoxgloveBridgeTest, TakesNoIdForAnother) {
+  const std::string range = "an id is a whole number from 0 to 4294967295, not ";
+  for (const char* const id : {"4294967297", "1.5", "-1", "true", "1e300", "\"1\"", "null"}) {
+    const std::string text = id, channel = std::to_string(channel_);
+    const auto subscribing = [&](const std::string& number, const std::string& to) {
+      return R"({"op": "subscribe", "subscriptions": [{"id": )" + number + R"(, "channelId": )" +
+             to + "}]}";
+    };
+    for (const std::string& said :
+         {subscribing(text, channel), subscribing("1", text),
+          R"({"op": "unsubscribe", "subscriptionIds": [)" + text + "]}"}) {
+      const std::string answer = answer_to(said);
+      EXPECT_EQ(answer.substr(0, range.size()), range) << said;
+    }
+  }
+  EXPECT_FALSE(topic_.write("bright")) << "nobody reads it";
+}
+
 TEST_F(FoxgloveBridgeTest, TakesAnotherNumberOnceTheFirstIsGivenBack) {
   socket_.send_text(json{{"op", "subscribe"}, {"subscriptions", {subscription(1)}}}.dump());
   socket_.send_text(R"({"op": "unsubscribe", "subscriptionIds": [1]})");

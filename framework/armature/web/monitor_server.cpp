@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
+#include <string_view>
 
 namespace armature {
 namespace {
@@ -31,6 +32,21 @@ WebServer::Page shipped_page() {
               "default-src 'none'; script-src 'unsafe-inline'; style-src "
               "'unsafe-inline'; img-src data: blob:; connect-src 'self' ws: wss:; "
               "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"};
+}
+
+/// Text as it stands in a query of an address (RFC 3986, section 2): what is reserved, as %XX.
+std::string percent_encoded(std::string_view text) {
+  constexpr std::string_view kPlain =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~";
+  std::string encoded;
+  for (const char c : text) {
+    if (kPlain.find(c) != std::string_view::npos) {
+      encoded += c;
+    } else {
+      encoded += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+  }
+  return encoded;
 }
 
 }  // namespace
@@ -60,7 +76,8 @@ WebServer::Options monitor_server(const MonitorAddress& address) {
 }
 
 std::string monitor_links(const MonitorAddress& address, int port) {
-  const std::string query = address.token.empty() ? "" : "/?token=" + address.token;
+  const std::string query =
+      address.token.empty() ? "" : "/?token=" + percent_encoded(address.token);
   const std::string place = fmt::format("{}:{}{}", address.address, port, query);
   return fmt::format("http://{0}{1}\nws://{0}", place, query.empty() ? "/" : "");
 }

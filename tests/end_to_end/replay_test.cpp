@@ -371,6 +371,20 @@ TEST_F(Replay, ADamagedRecordingAccusesNobody) {
   EXPECT_GT(checked["outputs"], 0);
 }
 
+TEST_F(Replay, ARepairedRecordingIsIncompleteAndSaysWhatItWasMadeOf) {
+  record_needle();
+  const std::string cut = file("cut.mcap"), whole = file("whole.mcap");
+  fs::copy_file(file(), cut);
+  fs::resize_file(cut, fs::file_size(cut) * 3 / 4);
+  ASSERT_EQ(run_command({armature(), "record", "--repair", cut, "-o", whole}).exit_code, 0);
+  const json checked = check({whole}, 1);
+  EXPECT_EQ(checked["identical"], json{}) << "nobody knows";
+  EXPECT_FALSE(checked["complete"]);
+  EXPECT_GT(checked["outputs"], 0);
+  EXPECT_EQ(checked["problems"], (json{"it was repaired from 'cut.mcap', which was cut off",
+                                       "the recording of process 'main' has no end"}));
+}
+
 TEST_F(Replay, AFailureIsRecordedAndAReplayWithoutItDiffers) {
   Command run{{armature(), "run", source_file("configs/dental_lamp.yaml"), "--set",
                "record.file=" + file(), "--inject", "motion:throw", "--domain",

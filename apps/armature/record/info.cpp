@@ -14,6 +14,7 @@
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "record/record.hpp"
+#include "record/repaired.hpp"
 #include "standard_output.hpp"
 
 namespace armature {
@@ -136,6 +137,7 @@ Json json_of(const Contents& contents, const std::vector<std::string>& problems)
   Json json{{"library", contents.library},
             {"whole", problems.empty()},
             {"problems", problems},
+            {"repaired", repairs_told_by(contents.metadata)},
             {"length_s", to_seconds(contents.length)},
             {"chunks", contents.chunks},
             {"packed_bytes", contents.packed_bytes},
@@ -184,6 +186,9 @@ void print(const Contents& contents) {
       print_out(" {}={}", shown(key), shown(value));
     }
     print_out("\n");
+  }
+  for (const std::string& repair : repairs_told_by(contents.metadata)) {
+    print_out("  incomplete: {}\n", shown(repair));
   }
   if (contents.links > 0) {
     print_out("  {} links, the last is {}: --verify holds the file to them\n", contents.links,
@@ -235,6 +240,20 @@ Json json_of(const McapChain& chain) {
           {"changes", chain.changes}};
 }
 
+/// True for a file of which --repair would save nothing.
+bool is_nothing(const Contents& contents) {
+  const auto has_messages = [](const auto& topic) {
+    return topic.second.messages + topic.second.doubled > 0;
+  };
+  return std::ranges::none_of(contents.topics, has_messages) && contents.attachments.empty() &&
+         contents.metadata.empty();
+}
+
+void tell_unreadable(const std::filesystem::path& file, const std::vector<std::string>& problems) {
+  fmt::print(stderr, "armature: '{}': nothing can be read of it: {}\n", file.string(),
+             problems.front());
+}
+
 void tell_problems(const std::filesystem::path& file, const std::vector<std::string>& problems) {
   for (const std::string& problem : problems) {
     fmt::print(stderr, "armature: '{}' is not whole: {}\n", file.string(), problem);
@@ -279,6 +298,7 @@ int describe_recording(const InfoOptions& options) {
   }
   McapReader reader{options.file, options.verify};
   const Contents contents = contents_of(reader, recorded_processes(options.file));
+  const bool is_unreadable = !reader.problems().empty() && is_nothing(contents);
   const McapChain chain = reader.chain();
   const bool is_head = options.head.empty() || options.head == chain.head;
   if (options.json) {
@@ -286,11 +306,13 @@ int describe_recording(const InfoOptions& options) {
     if (options.verify) json["chain"] = json_of(chain);
     if (!options.head.empty()) json["chain"]["is_head"] = is_head;
     print_out("{}\n", text_of(json));
-  } else {
+  } else if (!is_unreadable) {
     print(contents);
   }
   std::fflush(standard_output());  // a reader of both has this before what is wrong
-  if (!reader.problems().empty()) tell_problems(options.file, reader.problems());
+  if (!reader.problems().empty()) {
+    (is_unreadable ? tell_unreadable : tell_problems)(options.file, reader.problems());
+  }
   if (!options.verify) return reader.problems().empty() ? kOk : kFailed;
   const bool is_whole = chain.verdict == McapChain::Verdict::whole && reader.problems().empty();
   const std::string told = told_by(chain, !reader.problems().empty());

@@ -21,6 +21,7 @@ namespace armature {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 /// Runs `work` and hides what it prints.
 template <class Work>
@@ -109,6 +110,55 @@ TEST(DamagedRecording, OnAFullDiskIsNotRepairedAtTheCostOfTheFileThatWasThere) {
   EXPECT_EQ(older.bytes(), "an older recording");
   for (const auto& entry : std::filesystem::directory_iterator{older.path().parent_path()}) {
     EXPECT_FALSE(entry.path().string().starts_with(older.path().string() + ".")) << entry.path();
+  }
+}
+
+/// What `info` prints: results and complaints.
+std::string info_text(const InfoOptions& info, int exit_code) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(describe_recording(info), exit_code);
+  const std::string out = testing::internal::GetCapturedStdout();
+  return out + testing::internal::GetCapturedStderr();
+}
+
+TEST(DamagedRecording, IsToldOfByInfoAlsoWhenItWasRepaired) {
+  const RecordingFile file{"damaged"}, repaired{"repaired"};
+  {
+    McapWriter writer{file.path(), {.chunk_bytes = 1024}};
+    write_all_but_the_end(writer, 100);
+    writer.close();
+  }
+  const std::string whole = file.bytes();
+  ASSERT_EQ(in_silence([&] { return repair_recording(file.path(), repaired.path(), true); }), kOk);
+  EXPECT_THAT(info_text({.file = repaired.path(), .verify = true}, kOk),
+              Not(HasSubstr("incomplete")))
+      << "nothing was missing";
+  file.replace(whole.substr(0, places_of(mcap::Op::chunk, whole).at(3)));
+  ASSERT_EQ(in_silence([&] { return repair_recording(file.path(), repaired.path(), true); }), kOk);
+  const std::string expected = "incomplete: it was repaired from '" +
+                               file.path().filename().string() + "', which was cut off";
+  for (const bool verify : {false, true}) {
+    EXPECT_THAT(info_text({.file = repaired.path(), .verify = verify}, kOk), HasSubstr(expected));
+  }
+}
+
+TEST(DamagedRecording, OfWhichNothingIsLeftIsNotSentToBeRepaired) {
+  const RecordingFile file{"damaged"};
+  {
+    McapWriter writer{file.path(), {.chunk_bytes = 1024}};
+    write_all_but_the_end(writer, 100);
+    writer.close();
+  }
+  const std::string whole = file.bytes();
+  for (const std::size_t bytes : {std::size_t{8}, std::size_t{30}}) {
+    file.replace(whole.substr(0, bytes));
+    for (const bool verify : {false, true}) {
+      const std::string told = info_text({.file = file.path(), .verify = verify}, kFailed);
+      EXPECT_THAT(told, HasSubstr("nothing can be read of it")) << bytes << " bytes";
+      EXPECT_THAT(told, Not(HasSubstr("--repair"))) << bytes << " bytes";
+      EXPECT_THAT(told, Not(HasSubstr("0.000 s by"))) << bytes << " bytes";
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include "armature/recording/hash_chain.hpp"
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_writer.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
 #include "armature/runtime/reporting/draft.hpp"
 #include "exit_code.hpp"
 #include "record/message_copy.hpp"
@@ -18,7 +19,7 @@ namespace {
 /// Metadata of the new file: which file it was made from, and in what state that was.
 McapMetadata repaired_from(const std::filesystem::path& cut, const McapReader& reader) {
   const McapChain chain = reader.chain();
-  return {.name = "armature.repaired",
+  return {.name = std::string{kRepairedMetadata},
           .values = {{"file", cut.filename().string()},
                      {"sha256", sha256_of_file(cut)},
                      {"chain", std::string{word_of(chain.verdict)}},

@@ -13,6 +13,7 @@
 #include "armature/config/document.hpp"
 #include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
+#include "record/repaired.hpp"
 
 namespace armature {
 namespace {
@@ -186,6 +187,13 @@ std::vector<std::string> RecordedRun::problems() const {
     if (metadata.name != kPartMetadata || !is_mine(metadata.values)) continue;
     if (first == metadata.values.end() || first->second.empty()) continue;
     add(fmt::format("the recording of process '{}' was not whole: {}", process_, first->second));
+  }
+  for (const std::string& repair : repairs_told_by(reader_.metadata())) add(repair);
+  const auto is_end = [&](const McapMetadata& metadata) {
+    return metadata.name == kEndMetadata && is_mine(metadata.values);
+  };
+  if (std::ranges::none_of(reader_.metadata(), is_end)) {
+    add(fmt::format("the recording of process '{}' has no end", process_));
   }
   return problems;
 }

@@ -24,6 +24,7 @@
 #include "exit_code.hpp"
 #include "jpeg_encoder.hpp"
 #include "record/message_copy.hpp"
+#include "record/repaired.hpp"
 
 namespace armature {
 namespace {
@@ -126,6 +127,7 @@ RunContents read_contents(const std::filesystem::path& file) {
   }
   contents.chain = reader.chain();
   contents.is_whole = reader.problems().empty();
+  contents.repairs = repairs_told_by(reader.metadata());
   for (const McapMetadata& metadata : reader.metadata()) {
     if (metadata.name == kDeploymentMetadata) contents.deployment = metadata.values;
   }

@@ -22,6 +22,7 @@ struct RunContents {
   Time first, last;
   McapChain chain;
   bool is_whole = true;
+  std::vector<std::string> repairs;               // of files that were not whole
   std::vector<std::string> processes;             // whose recordings are in it
   std::map<std::string, std::string> deployment;  // version, fingerprint, ..
   std::string figures;                            // of the run, as JSON; empty: it has none

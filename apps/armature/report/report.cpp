@@ -20,6 +20,7 @@
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "record/record.hpp"
+#include "record/repaired.hpp"
 #include "report/reduced_recording.hpp"
 #include "standard_output.hpp"
 #include "verbs/shipped_configs.hpp"
@@ -109,6 +110,7 @@ nlohmann::ordered_json provenance(const ReportOptions& options, const RunContent
   add("SHA-256", sha256_of_file(options.recording));
   add("Last hash", contents.chain.head);
   add("Checked", std::string{state_of(contents)});
+  for (const std::string& repair : contents.repairs) add("Incomplete", repair);
   add("Recorded",
       fmt::format("{}, {:.1f} s", utc(contents.first), to_seconds(contents.last - contents.first)));
   add("Deployment", of_deployment("deployment"));
@@ -131,6 +133,9 @@ std::vector<std::string> notes_on(const ReportOptions& options, const RunContent
   };
   if (!contents.is_whole || contents.chain.verdict == McapChain::Verdict::changed) {
     note(fmt::format("is {}: the page says so", state_of(contents)));
+  }
+  for (const std::string& repair : contents.repairs) {
+    note(fmt::format("is incomplete: {}; the page says so", repair));
   }
   if (!shows_moving_arm(contents)) {
     note(

@@ -114,6 +114,18 @@ class ReportTest : public testing::Test {
   std::string reason_;
 };
 
+TEST_F(ReportTest, SaysOfARepairedRecordingWhatItWasMadeOf) {
+  {
+    McapWriter writer{recording_.path(), {}};
+    write_all_but_the_end(writer, 100);
+    writer.add(McapMetadata{.name = "armature.repaired",
+                            .values = {{"file", "cut.mcap"}, {"chain", "cut"}}});
+    writer.close();
+  }
+  ASSERT_EQ(report(), kOk) << reason_;
+  EXPECT_THAT(out_.bytes(), HasSubstr("it was repaired from 'cut.mcap', which was cut off"));
+}
+
 TEST_F(ReportTest, HasTheRecordingInItToTheLastByte) {
   record({{"/a", "std_msgs/msg/String", 100, 100}});
   ASSERT_EQ(report(), kOk) << reason_;

@@ -15,6 +15,7 @@ inline constexpr std::string_view kDeploymentMetadata = "armature.deployment";
 inline constexpr std::string_view kComponentMetadata = "armature.component";
 inline constexpr std::string_view kEndMetadata = "armature.end";    // missing: it was cut off
 inline constexpr std::string_view kPartMetadata = "armature.part";  // of files that were joined
+inline constexpr std::string_view kRepairedMetadata = "armature.repaired";  // by record --repair
 /// Key of a channel with samples of one writer in another process: they have the numbers that it
 /// gave them, and so have those that its own process recorded.
 inline constexpr const char* kNumberedKey = "numbered";

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "record/repaired.hpp"
+
+#include <fmt/format.h>
+
+#include "armature/config/problems.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
+
+namespace armature {
+namespace {
+
+/// What was wrong with the file that was repaired; empty: nothing.
+std::string wrong_with(const std::string& chain, const std::string& problems) {
+  if (chain == "cut") return "cut off";
+  if (chain == "changed") return "changed after it was written";
+  return problems == "0" ? "" : "not whole";
+}
+
+}  // namespace
+
+std::vector<std::string> repairs_told_by(const std::vector<McapMetadata>& metadata) {
+  std::vector<std::string> told;
+  for (const McapMetadata& one : metadata) {
+    if (one.name != kRepairedMetadata) continue;
+    const auto value = [&](const char* key) {
+      const auto found = one.values.find(key);
+      return found == one.values.end() ? std::string{} : found->second;
+    };
+    const std::string wrong = wrong_with(value("chain"), value("problems"));
+    if (wrong.empty()) continue;
+    told.push_back(fmt::format("it was repaired from {}, which was {}",
+                               config::in_quotes(value("file")), wrong));
+  }
+  return told;
+}
+
+}  // namespace armature

@@ -80,4 +80,11 @@ std::string no_hash(const std::string& text) {
   return is_one ? "" : config::in_quotes(text) + " is no SHA-256, 64 hexadecimal digits";
 }
 
+std::string in_small_letters(std::string text) {
+  for (char& letter : text) {
+    if (letter >= 'A' && letter <= 'F') letter = static_cast<char>(letter - 'A' + 'a');
+  }
+  return text;
+}
+
 }  // namespace armature

@@ -27,6 +27,8 @@ std::string no_file(const std::string& text);
 std::string no_text(const std::string& text);
 /// Not the 64 hexadecimal digits of a SHA-256, in small letters.
 std::string no_hash(const std::string& text);
+/// The same text with a to f for A to F, as a hash is written by either.
+std::string in_small_letters(std::string text);
 /// No "host" or "host:port" of a discovery server.
 std::string no_server(const std::string& text);
 

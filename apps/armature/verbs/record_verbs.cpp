@@ -59,6 +59,7 @@ void add_info(CLI::App& app, Action& action) {
   CLI::Option* verify = verb->add_flag("--verify", options->verify,
                                        "read all of it, and tell whether it is as it was written");
   verb->add_option("--head", options->head, "and whether this is its last hash, as record told it")
+      ->transform(in_small_letters)
       ->check(no_hash)
       ->needs(verify);
   verb->callback([=, &action] { action = [=] { return describe_recording(*options); }; });

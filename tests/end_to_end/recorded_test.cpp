@@ -5,9 +5,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -153,6 +155,9 @@ TEST_F(Recorded, AByteThatIsChangedAfterwardsIsFound) {
   EXPECT_EQ(verify_by(head).exit_code, 0);
   EXPECT_THAT(verify_by(head).out,
               ContainsRegex("whole and unchanged: [0-9]+ links, the last is " + head));
+  std::string capitals = head;
+  for (char& digit : capitals) digit = static_cast<char>(std::toupper(digit));
+  EXPECT_EQ(verify_by(capitals).exit_code, 0);
   EXPECT_THAT(verify_by(std::string(64, '0')).err, HasSubstr("it is another file"));
   EXPECT_EQ(verify_by(std::string(64, '0')).exit_code, 1);
   EXPECT_EQ(verify_by("abc").exit_code, 2);
@@ -178,6 +183,59 @@ TEST_F(Recorded, AFileThatIsThereIsNotReplacedUnlessItIsWanted) {
   EXPECT_THAT(again.err, HasSubstr("is there already; --force replaces it"));
   EXPECT_EQ(fs::file_size(file_), size);
   EXPECT_EQ(run_command(record({"--timeout", "4", "--force"}), {}, kEnough).exit_code, 0);
+}
+
+TEST_F(Recorded, WhatIsReplacedStaysUntilThereIsAWholeRecording) {
+  std::ofstream{file_} << "older";
+  const auto files = [&] {
+    return std::distance(fs::directory_iterator{folder_}, fs::directory_iterator{});
+  };
+  const CommandResult nothing =
+      run_command(record({"/nobody", "--timeout", "1", "--force"}), {}, kEnough);
+  EXPECT_EQ(nothing.exit_code, 5);
+  EXPECT_THAT(nothing.err, HasSubstr("nothing came to be recorded: '" + file_ + "' is as it was"));
+  EXPECT_EQ(fs::file_size(file_), 5U);
+  EXPECT_EQ(files(), 1);
+
+  Command recording{record({"--force"})};
+  ASSERT_TRUE(recording.wait_for_err("stays until the new recording is whole", kEnough));
+  const CommandResult second = run_command(record({"--timeout", "1", "--force"}), {}, kEnough);
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_EQ(second.err, "armature: '" + file_ + "' is being written by another program\n");
+  const auto draft = [&]() -> fs::path {
+    for (const auto& entry : fs::directory_iterator{folder_}) {
+      if (entry.path() != file_) return entry.path();
+    }
+    return {};
+  };
+  const auto give_up = std::chrono::steady_clock::now() + kEnough;
+  while (draft().empty() || fs::file_size(draft()) < 50'000) {
+    ASSERT_LT(std::chrono::steady_clock::now(), give_up) << recording.err() << run_.err();
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  recording.signal(SIGKILL);
+  EXPECT_THAT(recording.finish(kEnough).err, HasSubstr(draft().string()));
+  EXPECT_EQ(fs::file_size(file_), 5U);
+  EXPECT_GT(all_messages(info(draft(), 1)), 0U);
+
+  EXPECT_EQ(run_command(record({"--timeout", "4", "--force"}), {}, kEnough).exit_code, 0);
+  EXPECT_EQ(info(file_, 0)["whole"], true);
+  EXPECT_EQ(files(), 2) << "and the draft of the one that died";
+}
+
+TEST_F(Recorded, WhatIsBeingRecordedIsNotReplaced) {
+  Command first{record({})};
+  const auto give_up = std::chrono::steady_clock::now() + kEnough;
+  while (!fs::exists(file_) || fs::file_size(file_) == 0) {
+    ASSERT_LT(std::chrono::steady_clock::now(), give_up) << first.err();
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  const CommandResult second = run_command(record({"--timeout", "1", "--force"}), {}, kEnough);
+  EXPECT_EQ(second.exit_code, 1);
+  EXPECT_EQ(second.err, "armature: '" + file_ + "' is being written by another program\n");
+  first.signal(SIGINT);
+  first.finish(kEnough);
+  EXPECT_EQ(info(file_, 0)["whole"], true);
 }
 
 TEST_F(Recorded, ANameThatNobodyWritesIsTold) {

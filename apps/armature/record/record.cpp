@@ -14,6 +14,7 @@
 #include "armature/runtime/deployment_file/record_config.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
+#include "record/destination.hpp"
 #include "record/recorder.hpp"
 #include "standard_output.hpp"
 
@@ -88,8 +89,12 @@ void refuse_to_replace(const std::filesystem::path& file, bool force) {
 
 int record_topics(const RecordOptions& options) {
   leave_in_order();
-  refuse_to_replace(options.out, options.force);
-  Recorder recorder{options.out, options.compress};
+  Destination destination{options.out, options.force};
+  Recorder recorder{destination.path(), options.compress};
+  if (destination.is_draft()) {
+    fmt::print(stderr, "armature: '{}' stays until the new recording is whole; that is '{}'\n",
+               options.out.string(), destination.path().string());
+  }
   const Time start = monotonic_now();
   std::vector<std::string> missing;
   {
@@ -115,13 +120,18 @@ int record_topics(const RecordOptions& options) {
   try {
     recorder.close();
   } catch (const std::runtime_error& error) {
-    if (recorder.messages() == 0) throw;
-    throw std::runtime_error(
-        fmt::format("{}; {} messages stand in the file and {} do not; those that do are readable, "
-                    "and made whole "
-                    "by: armature record --repair {} -o whole.mcap",
-                    error.what(), recorder.messages(), recorder.unwritten(), options.out.string()));
+    if (recorder.messages() == 0) {
+      destination.drop();
+      throw;
+    }
+    throw std::runtime_error(fmt::format(
+        "{}; {} messages stand in the file and {} do not; those that do are readable, "
+        "and made whole by: armature record --repair {} -o whole.mcap",
+        error.what(), recorder.messages(), recorder.unwritten(), destination.path().string()));
   }
+  const bool came = recorder.messages() > 0, is_left = !came && destination.is_draft();
+  if (came) destination.take();
+  if (is_left) destination.drop();
   if (options.json) {
     std::uint64_t dropped = 0, lost = 0;
     for (const auto& [topic, count] : recorder.dropped()) dropped += count;
@@ -132,14 +142,15 @@ int record_topics(const RecordOptions& options) {
                                      {"bytes", recorder.bytes()},
                                      {"dropped", dropped},
                                      {"lost", lost},
-                                     {"head", recorder.head()}}));
-  } else {
+                                     {"head", is_left ? "" : recorder.head()}}));
+  } else if (!is_left) {
     print_out("{}: {} messages of {} topics, {}\n", options.out.string(), recorder.messages(),
               recorder.topics(), megabytes(recorder.bytes()));
     print_out("last hash {}\n", recorder.head());
   }
-  if (recorder.messages() > 0) return kOk;
-  fmt::print(stderr, "armature: nothing came to be recorded\n");
+  if (came) return kOk;
+  fmt::print(stderr, "armature: nothing came to be recorded{}\n",
+             is_left ? fmt::format(": '{}' is as it was", options.out.string()) : "");
   return kTimedOut;
 }
 

@@ -39,6 +39,11 @@ void Draft::give_name() {
   path_.clear();
 }
 
+void Draft::keep() {
+  close_file();
+  path_.clear();
+}
+
 void Draft::close_file() {
   if (descriptor_ >= 0) close(std::exchange(descriptor_, -1));
 }

@@ -25,6 +25,8 @@ class Draft {
   int descriptor() const { return descriptor_; }
   /// Replaces what has the name. Throws std::filesystem::filesystem_error when it cannot.
   void give_name();
+  /// Leaves it under the name of its own: it has what is nowhere else.
+  void keep();
 
  private:
   void close_file();

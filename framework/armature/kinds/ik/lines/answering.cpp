@@ -130,6 +130,18 @@ Json status_json(const IkStatus& status) {
   return json;
 }
 
+/// The branch with its joints turned by whole turns into the limits, as near to `seed` as they
+/// allow, where it keeps the limits at all.
+IkBranch turned(const RobotModel& robot, const IkGoal& goal, const JointVector& seed,
+                IkBranch branch) {
+  JointVector q = branch.q;
+  if (!branch.within_limits || !unwind(robot, seed, q) || q == branch.q) return branch;
+  const Eigen::Vector3d axis = robot.pointing_axis().value_or(Eigen::Vector3d::UnitX());
+  branch.q = q;
+  branch.residual = residual(forward_kinematics(robot, q), axis, goal.pose);
+  return branch;
+}
+
 /// `key` is what a redundancy is called, empty where there is none.
 Json solution_json(const RobotModel& robot, const IkBranch& branch, std::string_view key) {
   Json json;
@@ -189,7 +201,8 @@ Json ik_json(const RobotModel& robot, const IkSolver& solver, const JointVector&
   for (const IkBranch& branch : branches) {
     const bool has_one = goal.redundancy || (redundant && solver.redundancy_of(branch.q));
     answer["solutions"].push_back(
-        solution_json(robot, branch, has_one ? ik_lines::redundancy_key(is_length) : ""));
+        solution_json(robot, turned(robot, goal, seed, branch),
+                      has_one ? ik_lines::redundancy_key(is_length) : ""));
   }
   add_intervals(solver, goal, seed, answer["solutions"]);
   return answer;

@@ -20,7 +20,8 @@ std::string answer_fk(const RobotModel& robot, std::string_view line);
 /// dof() entries), "redundancy_rad" or "redundancy_m", what the solver remembers
 /// ("last_redundancy_rad" or "last_redundancy_m"), "tolerance_m", "tolerance_rad",
 /// "max_iterations"}. Answer: status, reason, by how much it was missed ("beyond_reach_m",
-/// "residual"), what the solver remembers now, and the solutions.
+/// "residual"), what the solver remembers now, and the solutions. Joints of a solution within
+/// limits are turned by whole turns into the limits, as near to the seed as they allow.
 std::string answer_ik(const RobotModel& robot, const IkSolver& solver, const JointVector& home,
                       std::string_view line);
 

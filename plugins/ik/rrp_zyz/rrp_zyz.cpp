@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "armature/runtime/plugins/plugin.hpp"
+#include "turns_on_limits.hpp"
 
 namespace armature {
 namespace {
@@ -45,7 +46,7 @@ struct Angle {
 /// The joints of the arm up to the slide, as Denavit-Hartenberg angles.
 struct Base {
   Angle theta1, theta2;
-  bool free;  // axis 1 runs along the slide: theta1 is the seed's
+  bool free;  // axis 1 runs along the slide: theta1 is given
 };
 
 /// The joints behind the slide.
@@ -82,12 +83,13 @@ Matrix3d wrist_rotation(const RrpArm& arm, const Wrist& wrist) {
   return R;
 }
 
-/// theta1, theta2 (base 0) that lay the slide through `p`, `distance` away from the centre.
-Base solve_base(const RrpArm& arm, const Vector3d& p, double distance, double seed_theta1) {
+/// theta1, theta2 (base 0) that lay the slide through `p`, `distance` away from the centre; theta1
+/// is `free_theta1` where any does.
+Base solve_base(const RrpArm& arm, const Vector3d& p, double distance, double free_theta1) {
   const double radius = std::sqrt(p.x() * p.x() + p.y() * p.y());
   const double cos2 = -arm.s1 * arm.s2 * p.z() / distance;
   if (radius <= kFree * distance) {
-    return {Angle::of(seed_theta1), Angle::from(0, std::copysign(1.0, cos2)), true};
+    return {Angle::of(free_theta1), Angle::from(0, std::copysign(1.0, cos2)), true};
   }
   return {Angle::from(arm.s2 * p.y() / radius, arm.s2 * p.x() / radius),
           Angle::from(radius / distance, cos2), false};
@@ -203,9 +205,12 @@ void add_branch(Problem& p, std::size_t label, const Base& base, const Wrist& wr
   branch.singular = std::abs(base.theta2.sin) < kSingular || std::abs(wrist.theta5.sin) < kSingular;
 }
 
-void solve_all(Problem& p) {
-  const double seed1 = p.seed[0] + p.arm.theta[0], seed4 = p.seed[3] + p.arm.theta[3];
-  const Base base = solve_base(p.arm, p.centre, p.distance, seed1);
+/// All four branches; where axis 1 runs along the slide, theta1 of base 0 is `free_theta1`. True
+/// when it does.
+bool solve_at(Problem& p, double free_theta1) {
+  p.out.clear();
+  const double seed4 = p.seed[3] + p.arm.theta[3];
+  const Base base = solve_base(p.arm, p.centre, p.distance, free_theta1);
   const Matrix3d M = wrist_goal(p, base);
   const Wrist wrist = solve_wrist(p.arm, M, seed4);
   const PoseResidual residual = residual_of(p, base, wrist, M);
@@ -227,6 +232,39 @@ void solve_all(Problem& p) {
   }
   add_branch(p, 2, other, turned, error);
   add_branch(p, 3, other, turned.flipped(), error);
+  return base.free;
+}
+
+bool any_within_limits(const IkBranches& branches) {
+  return std::ranges::any_of(branches, &IkBranch::within_limits);
+}
+
+/// The wrist's rotation over a turn of a base whose axis 1 runs along the slide.
+TurningWrist turning_wrist(const Problem& p) {
+  std::array<Matrix3d, 3> at;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double theta1 = static_cast<double>(i) * kPi / 2;
+    at[i] = wrist_goal(p, solve_base(p.arm, p.centre, p.distance, theta1));
+  }
+  return {at[0], at[1], at[2]};
+}
+
+/// A free theta1 is the seed's; where no branch keeps the limits there, the nearest at which one
+/// does. False: there is none, and the branches are those of the seed.
+bool solve_all(Problem& p) {
+  const double seed1 = p.seed[0] + p.arm.theta[0];
+  const bool free = solve_at(p, seed1);
+  if (any_within_limits(p.out)) return true;
+  if (!free) return false;
+  TurnsOnLimits turns = turns_on_limits(p.arm, turning_wrist(p));
+  const auto way = [&](double theta1) { return std::abs(wrap_angle(theta1 - seed1)); };
+  std::ranges::sort(turns.begin(), turns.end(), {}, way);
+  for (const double theta1 : turns) {
+    solve_at(p, theta1);
+    if (any_within_limits(p.out)) return true;
+  }
+  solve_at(p, seed1);
+  return false;
 }
 
 }  // namespace
@@ -257,9 +295,7 @@ IkStatus RrpZyz::solve(const IkGoal& goal, const JointVector& seed, IkBranches& 
     return {IkStatus::Code::out_of_reach, least - distance, "the slide does not go in so far"};
   }
   Problem problem{arm_, seed, centre, column_R_tool * arm_.tool_R_hand, distance, out};
-  solve_all(problem);
-  const bool any = std::any_of(out.begin(), out.end(), [](auto& b) { return b.within_limits; });
-  if (any) return {};
+  if (solve_all(problem)) return {};
   return {IkStatus::Code::joint_limit, 0, "every branch leaves the joint limits"};
 }
 

@@ -83,6 +83,17 @@ TEST_F(Installed, TheLibraryPageBuildsAndRuns) {
   EXPECT_EQ(result.exit_code, 0) << text_of(folder_ / "build.log") << result.err;
   EXPECT_TRUE(result.out.starts_with("ok\n")) << result.out;
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 2) << result.out;
+  const std::string robots = prefix_.string() + "/share/armature/configs/robots/";
+  const auto without_home = shell("build/reach " + robots + "sr1.yaml");
+  EXPECT_TRUE(without_home.out.starts_with("ok\n")) << without_home.out << without_home.err;
+  const auto no_robot_file =
+      shell("build/reach " ARMATURE_SOURCE_DIR "/tests/data/urdf/gantry.urdf");
+  EXPECT_EQ(no_robot_file.exit_code, 1);
+  EXPECT_NE(no_robot_file.err.find("an XML file, not YAML"), std::string::npos)
+      << no_robot_file.err;
+  const auto nothing = shell("build/reach");
+  EXPECT_EQ(nothing.exit_code, 2);
+  EXPECT_EQ(nothing.err, "usage: reach ROBOT.yaml\n");
 }
 
 /// Writes the blocks of a page that follow a line "`FILE`:" into files below `folder`. What its

@@ -43,6 +43,23 @@ void check_base(const UrdfChain& chain, const UrdfDocument& document, const Link
   }
 }
 
+/// Notes every joint that follows one whose limits, together with those of its followers, leave it
+/// no room.
+void check_followers(const RobotModel& model, const std::vector<config::Origin>& places,
+                     config::Problems& problems) {
+  for (std::size_t i = 0; i < model.joints().size(); ++i) {
+    const Joint& follower = model.joints()[i];
+    const int leader = model.chain()[i].independent;
+    if (!follower.coupling || model.lower()[leader] < model.upper()[leader]) continue;
+    const auto& moved = model.joints()[static_cast<std::size_t>(model.independent_joint(leader))];
+    problems.add(places[i], fmt::format("joint '{}' mimics '{}', which has no room to move: its "
+                                        "limits and those of the joints that follow it exclude "
+                                        "each other; correct the limits, the multiplier or the "
+                                        "offset",
+                                        follower.name, moved.name));
+  }
+}
+
 }  // namespace
 
 UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, const LinkName& tip,
@@ -105,8 +122,11 @@ RobotModel load_urdf_robot(const std::filesystem::path& file, const LinkName& ba
   UrdfArm arm = read_urdf_arm(file, base, tip, problems);
   check_urdf_limits(arm, arm.joints, problems);
   problems.throw_if_any();
-  return {{std::move(arm.name), RobotModel::Convention::modified, std::move(arm.joints),
-           std::move(arm.frames), arm.tip, std::nullopt, std::nullopt}};
+  RobotModel model{{std::move(arm.name), RobotModel::Convention::modified, std::move(arm.joints),
+                    std::move(arm.frames), arm.tip, std::nullopt, std::nullopt}};
+  check_followers(model, arm.places, problems);
+  problems.throw_if_any();
+  return model;
 }
 
 }  // namespace armature

@@ -7,7 +7,9 @@
 #include <tinyxml2.h>
 #include <urdf_parser/urdf_parser.h>
 
+#include <algorithm>
 #include <mutex>
+#include <string_view>
 #include <vector>
 
 #include "armature/config/problems.hpp"
@@ -42,6 +44,36 @@ class Complaints final : public console_bridge::OutputHandler {
   }
 };
 
+/// Where the document type before the first element begins, if it declares something itself; npos:
+/// nowhere.
+std::size_t find_declarations(std::string_view text) {
+  for (std::size_t at = text.find('<'); at != text.npos; at = text.find('<', at)) {
+    const std::string_view rest = text.substr(at);
+    if (rest.starts_with("<!DOCTYPE")) {
+      const std::size_t end = rest.find_first_of("[>");
+      return end != rest.npos && rest[end] == '[' ? at : text.npos;
+    }
+    const bool comment = rest.starts_with("<!--");
+    if (!comment && !rest.starts_with("<?")) break;
+    at = text.find(comment ? "-->" : "?>", at);
+  }
+  return text.npos;
+}
+
+/// Neither parser reads declarations: tinyxml2 stops at the end of the first.
+void refuse_declarations(const std::string& text, const std::string& file) {
+  const std::size_t at = find_declarations(text);
+  if (at == text.npos) return;
+  const auto begin = text.begin(), here = begin + static_cast<std::ptrdiff_t>(at);
+  const auto line = static_cast<int>(std::count(begin, here, '\n')) + 1;
+  const std::size_t before = text.rfind('\n', at);  // npos + 1 is 0
+  throw ConfigError{
+      {{Origin{file, line, static_cast<int>(at - (before + 1)) + 1},
+        fmt::format("declarations in a document type, such as entities, are not read; run 'xmllint "
+                    "--noent --dropdtd {} > resolved.urdf', and name that",
+                    file)}}};
+}
+
 }  // namespace
 
 UrdfDocument::Places UrdfDocument::places_in(const std::string& text, const std::string& file) {
@@ -69,6 +101,7 @@ UrdfDocument UrdfDocument::load(const std::filesystem::path& file) {
   UrdfDocument document;
   document.file_ = file.string();
   const std::string text = config::read_source(file, Origin{});
+  refuse_declarations(text, document.file_);
   document.places_ = places_in(text, document.file_);
 
   Complaints complaints;

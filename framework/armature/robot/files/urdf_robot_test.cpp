@@ -174,6 +174,27 @@ TEST_F(UrdfFile, SaysWhatAMimickingJointCannotFollow) {
                           "does not move is fixed"));
 }
 
+TEST_F(UrdfFile, SaysWhichMimickingJointCanNeverKeepItsLimits) {
+  const auto mimic = [](const std::string& what) {
+    return "<limit lower='0.5' upper='1' effort='1' velocity='2'/><mimic joint='j1' " + what + "/>";
+  };
+  EXPECT_THAT(problems_of(arm("revolute", mimic("multiplier='-1' offset='-1'"))),
+              ElementsAre("arm.urdf:3:1: joint 'j2' mimics 'j1', which has no room to move: its "
+                          "limits and those of the joints that follow it exclude each other; "
+                          "correct the limits, the multiplier or the offset"));
+  EXPECT_THAT(problems_of(arm("revolute", mimic("multiplier='-1'"))), ElementsAre());
+}
+
+TEST_F(UrdfFile, WithEntitiesSaysWhatResolvesThem) {
+  const std::string head = "<?xml version='1.0'?>\n<!-- no <!DOCTYPE robot [ here -->\n";
+  const std::string inside = arm("revolute", kLimit);
+  EXPECT_THAT(problems_of(head + "<!DOCTYPE robot [\n<!ENTITY far '1'>]>\n" + inside),
+              ElementsAre("arm.urdf:3:1: declarations in a document type, such as entities, are "
+                          "not read; run 'xmllint --noent --dropdtd arm.urdf > resolved.urdf', and "
+                          "name that"));
+  EXPECT_THAT(problems_of(head + "<!DOCTYPE robot>\n" + inside), ElementsAre());
+}
+
 TEST_F(UrdfFile, ThatIsNoneIsRefusedWithItsLine) {
   EXPECT_THAT(problems_of("<robot name='arm'>\n<link name='a'>\n</robot>\n"),
               ElementsAre(HasSubstr("arm.urdf:2:1: not XML (XML_ERROR_MISMATCHED_ELEMENT)")));

@@ -22,18 +22,19 @@ struct Limit {
 };
 
 /// The same limit for every joint of a kind, 0: the robot's own. Where the robot's own is lower, a
-/// limit that was written is refused, and a default gives way.
+/// limit that was written is a problem, and a default gives way.
 JointVector limits_from(const Limit& turning, const Limit& sliding, const Params& params,
-                        const RobotModel& model, const JointVector& robot_limit) {
+                        const RobotModel& model, const JointVector& robot_limit,
+                        config::Problems& problems) {
   JointVector limits = robot_limit;
   for (int i = 0; i < model.dof(); ++i) {
     const Joint& joint = model.joints()[static_cast<std::size_t>(model.independent_joint(i))];
     const Limit& limit = joint.type == Joint::Type::prismatic ? sliding : turning;
     if (limit.value == 0) continue;
     if (limit.value > robot_limit[i] && params.is_written(limit.name)) {
-      params.refuse({limit.name},
-                    fmt::format("{} is {}, above the {} {} of joint {} of robot {}", limit.name,
-                                limit.value, robot_limit[i], limit.unit, joint.name, model.name()));
+      problems.add(params.origin(limit.name),
+                   fmt::format("{} is {}, above the {} {} of joint {} of robot {}", limit.name,
+                               limit.value, robot_limit[i], limit.unit, joint.name, model.name()));
     }
     limits[i] = std::min(limit.value, robot_limit[i]);
   }
@@ -41,16 +42,17 @@ JointVector limits_from(const Limit& turning, const Limit& sliding, const Params
 }
 
 /// A limit for joints that slide would limit nothing where none does, as if the tool were meant.
-void refuse_idle_limits(const Parameters& parameters, const Params& params,
-                        const RobotModel& model) {
+void check_idle_limits(const Parameters& parameters, const Params& params, const RobotModel& model,
+                       config::Problems& problems) {
   const auto slides = [](const Joint& joint) { return joint.type == Joint::Type::prismatic; };
   if (std::ranges::any_of(model.joints(), slides)) return;
   for (const Limit& limit : {Limit{parameters.max_velocity_m_s, "max_velocity_m_s", ""},
                              Limit{parameters.max_acceleration_m_s2, "max_acceleration_m_s2", ""},
                              Limit{parameters.max_jerk_m_s3, "max_jerk_m_s3", ""}}) {
     if (limit.value == 0) continue;
-    params.refuse({limit.name}, fmt::format("{} is for joints that slide, and robot {} has none",
-                                            limit.name, model.name()));
+    problems.add(params.origin(limit.name),
+                 fmt::format("{} is for joints that slide, and robot {} has none", limit.name,
+                             model.name()));
   }
 }
 
@@ -66,14 +68,18 @@ JointVector max_jerk_of(const Parameters& parameters, const RobotModel& model) {
 
 MotionLimits limits_of(const Params& params, const RobotModel& model) {
   const auto parameters = Parameters::read(params);
-  refuse_idle_limits(parameters, params, model);
-  return {limits_from({parameters.max_velocity_rad_s, "max_velocity_rad_s", "rad/s"},
-                      {parameters.max_velocity_m_s, "max_velocity_m_s", "m/s"}, params, model,
-                      model.max_velocity()),
-          limits_from({parameters.max_acceleration_rad_s2, "max_acceleration_rad_s2", "rad/s2"},
-                      {parameters.max_acceleration_m_s2, "max_acceleration_m_s2", "m/s2"}, params,
-                      model, model.max_acceleration()),
-          max_jerk_of(parameters, model)};
+  config::Problems problems;
+  check_idle_limits(parameters, params, model, problems);
+  MotionLimits limits{
+      limits_from({parameters.max_velocity_rad_s, "max_velocity_rad_s", "rad/s"},
+                  {parameters.max_velocity_m_s, "max_velocity_m_s", "m/s"}, params, model,
+                  model.max_velocity(), problems),
+      limits_from({parameters.max_acceleration_rad_s2, "max_acceleration_rad_s2", "rad/s2"},
+                  {parameters.max_acceleration_m_s2, "max_acceleration_m_s2", "m/s2"}, params,
+                  model, model.max_acceleration(), problems),
+      max_jerk_of(parameters, model)};
+  problems.throw_if_any();
+  return limits;
 }
 
 /// The robot as the solver has it: narrower, and without what is locked.

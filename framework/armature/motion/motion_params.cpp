@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <set>
+#include <string_view>
 #include <utility>
 
 #include "armature/motion/limit_margin.hpp"
@@ -22,16 +24,18 @@ struct Limit {
 };
 
 /// The same limit for every joint of a kind, 0: the robot's own. Where the robot's own is lower, a
-/// limit that was written is a problem, and a default gives way.
+/// limit that was written is a problem, told with the first such joint, and a default gives way.
 JointVector limits_from(const Limit& turning, const Limit& sliding, const Params& params,
                         const RobotModel& model, const JointVector& robot_limit,
                         config::Problems& problems) {
   JointVector limits = robot_limit;
+  std::set<std::string_view> told;
   for (int i = 0; i < model.dof(); ++i) {
     const Joint& joint = model.joints()[static_cast<std::size_t>(model.independent_joint(i))];
     const Limit& limit = joint.type == Joint::Type::prismatic ? sliding : turning;
     if (limit.value == 0) continue;
-    if (limit.value > robot_limit[i] && params.is_written(limit.name)) {
+    if (limit.value > robot_limit[i] && params.is_written(limit.name) &&
+        told.insert(limit.name).second) {
       problems.add(params.origin(limit.name),
                    fmt::format("{} is {}, above the {} {} of joint {} of robot {}", limit.name,
                                limit.value, robot_limit[i], limit.unit, joint.name, model.name()));

@@ -8,10 +8,12 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <stdexcept>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "armature/values/json_text.hpp"
@@ -28,6 +30,16 @@ bool is_begun(std::string_view line) {
   return line.starts_with(kBegin) || kBegin.starts_with(line);
 }
 
+/// A run that an interrupted sweep was about to start has its file open for some milliseconds more.
+bool lock(int descriptor) {
+  constexpr int kTries = 50;
+  for (int i = 0; i < kTries; ++i) {
+    if (flock(descriptor, LOCK_EX | LOCK_NB) == 0) return true;
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
+  return false;
+}
+
 }  // namespace
 
 FinishedRuns::FinishedRuns(std::optional<std::filesystem::path> file) : file_{std::move(file)} {
@@ -40,7 +52,7 @@ FinishedRuns::FinishedRuns(std::optional<std::filesystem::path> file) : file_{st
   struct stat status {};
   fstat(descriptor_, &status);
   if (!S_ISREG(status.st_mode)) refuse("is no file; give another folder");
-  if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0) refuse("another sweep uses this folder");
+  if (!lock(descriptor_)) refuse("another sweep uses this folder");
   read();
 }
 

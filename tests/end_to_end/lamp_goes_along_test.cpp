@@ -78,19 +78,19 @@ TEST(LampGoesAlong, HoweverMuchHeTurns) {
   }
 }
 
-/// The distances from the mouth that the table of errors tells from the move on.
-double farthest_from_the_mouth_m(const std::filesystem::path& table, double begins_s) {
+/// The greatest distance of the lamp from the mouth after `begins_s`, by the table of errors.
+double max_distance_m(const std::filesystem::path& table, double begins_s) {
   std::ifstream file{table};
   std::string line;
   std::getline(file, line);
-  double farthest = 0;
+  double greatest = 0;
   while (std::getline(file, line)) {
     double time_s = 0, distance_m = 0;
     if (std::sscanf(line.c_str(), "%lf,%lf", &time_s, &distance_m) == 2 && time_s > begins_s) {
-      farthest = std::max(farthest, distance_m);
+      greatest = std::max(greatest, distance_m);
     }
   }
-  return farthest;
+  return greatest;
 }
 
 /// A head that turns by 60 degrees within 0.8 s is lost on the way: where it was going to be is not
@@ -104,9 +104,9 @@ TEST(LampGoesAlong, AHeadThatTurnsAwayFastDoesNotDrawTheLampPastIt) {
                     scene + "move_tilt_side_deg=60", "components.report.params.expect_move=true"},
        .report_folder = folder.string()});
   EXPECT_EQ(run.status(), "ok") << run.text();
-  const double farthest_m = farthest_from_the_mouth_m(folder / "errors.csv", 7);
-  EXPECT_GT(farthest_m, 0.499);
-  EXPECT_LT(farthest_m, 0.53);
+  const double max_m = max_distance_m(folder / "errors.csv", 7);
+  EXPECT_GT(max_m, 0.499);
+  EXPECT_LT(max_m, 0.53);
   std::filesystem::remove_all(folder);
 }
 

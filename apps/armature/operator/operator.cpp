@@ -157,7 +157,7 @@ class Dialogue {
   }
 
  private:
-  /// What has become of a line that was typed: the exit code that it has as --say.
+  /// Says a line that was typed; the exit code is the one of --say.
   int answer(const std::string& line) {
     if (line.empty()) return kOk;
     const std::string word = word_of(line);

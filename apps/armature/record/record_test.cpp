@@ -113,7 +113,7 @@ TEST(DamagedRecording, OnAFullDiskIsNotRepairedAtTheCostOfTheFileThatWasThere) {
   }
 }
 
-/// What `info` prints: results and complaints.
+/// The text that `info` prints: results and complaints.
 std::string info_text(const InfoOptions& info, int exit_code) {
   testing::internal::CaptureStdout();
   testing::internal::CaptureStderr();

@@ -8,8 +8,9 @@
 
 namespace armature {
 
-/// What a recording's metadata say of the files that it was repaired from and that were not whole,
-/// "it was repaired from 'cut.mcap', which was cut off"; empty: nothing was missing in any.
+/// One text for each file that a recording was repaired from and that was not whole, by its
+/// metadata: "it was repaired from 'cut.mcap', which was cut off"; empty: nothing was missing in
+/// any.
 std::vector<std::string> repairs_told_by(const std::vector<McapMetadata>& metadata);
 
 }  // namespace armature

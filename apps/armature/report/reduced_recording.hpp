@@ -11,7 +11,7 @@
 
 namespace armature {
 
-/// What is known of a recording after it was read once.
+/// The contents of a recording that was read once.
 struct RunContents {
   struct Topic {
     std::string type;
@@ -42,8 +42,8 @@ struct Reduced {
 };
 
 /// A recording as it stands in a page: fewer messages of fast topics, raw pictures as JPEG or none.
-/// What has come to the file since `contents` were read is left out. Throws InvalidChoice for one
-/// that is too long for a page, std::runtime_error for what cannot be read.
+/// Leaves out messages that have come to the file since `contents` were read. Throws InvalidChoice
+/// for one that is too long for a page, std::runtime_error for what cannot be read.
 Reduced reduced(const std::filesystem::path& recording, const RunContents& contents,
                 bool with_pictures);
 

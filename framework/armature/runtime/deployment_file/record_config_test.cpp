@@ -43,7 +43,7 @@ TEST(RecordConfig, NamesNoTwoTimesOfTheNightWhenSummerTimeEndsTheSame) {
   EXPECT_EQ(record.file_of("vision", winter), "fault-20261025-013000.vision.mcap");
 }
 
-/// Of a file `lamp.yaml` in `folder`.
+/// Reads `text` as the `record:` of a file `lamp.yaml` in `folder`.
 RecordConfig record_of(const std::string& folder, const std::string& text) {
   config::Problems problems;
   RecordConfig record = read_record(config::parse_text(text, folder + "/lamp.yaml"), problems);

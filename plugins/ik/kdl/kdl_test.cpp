@@ -41,17 +41,20 @@ ModelPtr skew_puma() {
       ARMATURE_SOURCE_DIR "/tests/data/urdf/skew_puma.urdf", {"", {}}, {"tool0", {}}));
 }
 
-IkSubject subject(std::string name, const ModelPtr& model, const std::string& method) {
-  IkSubject made = kdl(model, method).value();
-  made.name = std::move(name);
-  made.poses = made.edge_poses = 100;
-  return made;
+IkLawCase on(std::string name, std::function<ModelPtr()> model, std::string method) {
+  return {std::move(name), [model = std::move(model), method = std::move(method)] {
+            IkSubject made = kdl(model(), method).value();
+            made.poses = made.edge_poses = 100;
+            return made;
+          }};
 }
 
 INSTANTIATE_TEST_SUITE_P(Kdl, IkLaws,
-                         ::testing::Values(subject("sr1", robot("sr1"), "lma"),
-                                           subject("sr1_nr_jl", robot("sr1"), "nr_jl"),
-                                           subject("skew_puma", skew_puma(), "lma")),
+                         ::testing::Values(on(
+                                               "sr1", [] { return robot("sr1"); }, "lma"),
+                                           on(
+                                               "sr1_nr_jl", [] { return robot("sr1"); }, "nr_jl"),
+                                           on("skew_puma", &skew_puma, "lma")),
                          ::testing::PrintToStringParamName());
 
 std::string refusal(const RobotModel& model) {

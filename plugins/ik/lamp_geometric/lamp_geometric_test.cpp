@@ -31,9 +31,8 @@ std::shared_ptr<const IkSolver> solver_for(const RobotModel& model) {
   return std::move(LampGeometric::make(model, Params{}).value());
 }
 
-IkSubject subject(std::string name, std::shared_ptr<const RobotModel> model) {
-  return {
-      .name = std::move(name), .model = model, .solver = solver_for(*model), .closed_form = true};
+IkSubject subject(std::shared_ptr<const RobotModel> model) {
+  return {.model = model, .solver = solver_for(*model), .closed_form = true};
 }
 
 /// Other lengths, all signs that the table allows, and joints that turn all the way round.
@@ -49,10 +48,12 @@ std::shared_ptr<const RobotModel> another_lamp() {
   }));
 }
 
-INSTANTIATE_TEST_SUITE_P(Lamp, IkLaws, testing::Values(subject("lamp", lamp())),
+INSTANTIATE_TEST_SUITE_P(Lamp, IkLaws,
+                         testing::Values(IkLawCase{"lamp", [] { return subject(lamp()); }}),
                          testing::PrintToStringParamName());
 INSTANTIATE_TEST_SUITE_P(AnotherLamp, IkLaws,
-                         testing::Values(subject("other_lengths", another_lamp())),
+                         testing::Values(IkLawCase{"other_lengths",
+                                                   [] { return subject(another_lamp()); }}),
                          testing::PrintToStringParamName());
 
 class LampGeometricTest : public testing::Test {

@@ -155,19 +155,18 @@ std::shared_ptr<const IkSolver> solver_for(const RobotModel& model,
   return std::make_shared<Numeric>(model, parameters);
 }
 
-IkSubject subject(RobotModel model) {
-  auto shared = std::make_shared<const RobotModel>(std::move(model));
-  return {.name = shared->name(),
-          .model = shared,
-          .solver = solver_for(*shared),
-          .poses = 1000,
-          .seed = 2};
+IkLawCase on(std::string name, RobotModel (*model)()) {
+  return {std::move(name), [model] {
+            const auto made = std::make_shared<const RobotModel>(model());
+            return IkSubject{.model = made, .solver = solver_for(*made), .poses = 1000, .seed = 2};
+          }};
 }
 
 INSTANTIATE_TEST_SUITE_P(Numeric, IkLaws,
-                         testing::Values(subject(lamp()), subject(puma()), subject(seven()),
-                                         subject(gantry()), subject(two_elbows()), subject(askew()),
-                                         subject(panda()), subject(gen3())),
+                         testing::Values(on("dental_lamp", &lamp), on("puma", &puma),
+                                         on("seven", &seven), on("gantry", &gantry),
+                                         on("two_elbows", &two_elbows), on("askew", &askew),
+                                         on("panda", &panda), on("gen3", &gen3)),
                          testing::PrintToStringParamName());
 
 IkGoal goal_at(const RobotModel& model, const JointVector& q) {

@@ -37,7 +37,6 @@ std::shared_ptr<const IkSolver> relay(const RobotModel& model, const std::string
 /// counted.
 void expect_laws_kept(const std::string& plugin, bool closed_form) {
   IkSubject tried;
-  tried.name = plugin;
   tried.model = robot("dental_lamp");
   tried.solver = relay(*tried.model, plugin);
   tried.closed_form = tried.any_seed_at_edges = closed_form;

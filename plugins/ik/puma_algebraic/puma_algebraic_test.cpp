@@ -6,22 +6,23 @@
 namespace armature {
 namespace {
 
-IkSubject subject(std::string name, const ModelPtr& model) {
-  return {.name = std::move(name),
-          .model = model,
-          .solver = solver_for(*model),
-          .closed_form = true,
-          .poses = 5000,
-          .edge_poses = 200};
+IkLawCase arm(std::string name, ModelPtr (*model)()) {
+  return {std::move(name), [model] {
+            const ModelPtr made = model();
+            return IkSubject{.model = made,
+                             .solver = solver_for(*made),
+                             .closed_form = true,
+                             .poses = 5000,
+                             .edge_poses = 200};
+          }};
 }
 
 // The two robot files are also tested with 1000 poses of every edge by tests/contracts.
 INSTANTIATE_TEST_SUITE_P(Puma, IkLaws,
-                         testing::Values(subject("sr1", sr1()),
-                                         subject("sr1_pointing", sr1_pointing()),
-                                         subject("sr1_needle", sr1_needle()),
-                                         subject("standard_puma560", standard_puma560()),
-                                         subject("industrial_arm", industrial_arm())),
+                         testing::Values(arm("sr1", &sr1), arm("sr1_pointing", &sr1_pointing),
+                                         arm("sr1_needle", &sr1_needle),
+                                         arm("standard_puma560", &standard_puma560),
+                                         arm("industrial_arm", &industrial_arm)),
                          testing::PrintToStringParamName());
 
 TEST_F(PumaTest, ABatchOfNothingOrWithABadSeedIsAnswered) {

@@ -127,7 +127,7 @@ std::shared_ptr<const IkSolver> solver_for(const RobotModel& model) {
 
 void PumaTest::use(const ModelPtr& model) {
   static const IkLawTools kTools;
-  subject_ = {.name = "puma", .model = model, .solver = solver_for(*model), .seed = random_()};
+  subject_ = {.model = model, .solver = solver_for(*model), .seed = random_()};
   arm_ = puma_arm(*model).value();
   probe_.emplace(subject_, kTools);
 }

@@ -17,15 +17,16 @@ using testing::joints;
 using testing::master;
 using testing::solver_for;
 
-IkSubject subject(std::string name, std::shared_ptr<const RobotModel> model) {
-  return {
-      .name = std::move(name), .model = model, .solver = solver_for(*model), .closed_form = true};
+IkSubject subject(std::shared_ptr<const RobotModel> model) {
+  return {.model = model, .solver = solver_for(*model), .closed_form = true};
 }
 
-INSTANTIATE_TEST_SUITE_P(Master, IkLaws, ::testing::Values(subject("master", master())),
+INSTANTIATE_TEST_SUITE_P(Master, IkLaws,
+                         ::testing::Values(IkLawCase{"master", [] { return subject(master()); }}),
                          ::testing::PrintToStringParamName());
 INSTANTIATE_TEST_SUITE_P(AnotherMaster, IkLaws,
-                         ::testing::Values(subject("other_arm", another_master())),
+                         ::testing::Values(IkLawCase{"other_arm",
+                                                     [] { return subject(another_master()); }}),
                          ::testing::PrintToStringParamName());
 
 class RrpZyzTest : public ::testing::Test {

@@ -12,20 +12,21 @@
 namespace armature {
 namespace {
 
-IkSubject subject(std::string name, ModelPtr model, const std::string& objective, int edge_poses) {
-  return {.name = std::move(name),
-          .model = model,
-          .solver = solver_for(*model, objective),
-          .closed_form = true,
-          .poses = 500,
-          .edge_poses = edge_poses};
+IkLawCase arm(std::string name, ModelPtr (*model)()) {
+  return {std::move(name), [model] {
+            const ModelPtr made = model();
+            return IkSubject{.model = made,
+                             .solver = solver_for(*made),
+                             .closed_form = true,
+                             .poses = 500,
+                             .edge_poses = 50};
+          }};
 }
 
 // The robot file is also tested with 1000 poses of every edge by tests/contracts.
 INSTANTIATE_TEST_SUITE_P(Srs, IkLaws,
-                         testing::Values(subject("med7", med7(), "", 50),
-                                         subject("med7_flange", med7_flange(), "", 50),
-                                         subject("uneven_arm", uneven_arm(), "", 50)),
+                         testing::Values(arm("med7", &med7), arm("med7_flange", &med7_flange),
+                                         arm("uneven_arm", &uneven_arm)),
                          testing::PrintToStringParamName());
 
 class SrsArmAngleTest : public testing::Test {

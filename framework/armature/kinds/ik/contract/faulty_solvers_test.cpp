@@ -182,15 +182,15 @@ class Gantry : public IkSolver {
 
 IkSubject subject(Fault fault) {
   const auto model = std::make_shared<const RobotModel>(pan_tilt_gantry());
-  return {.name = "gantry",
-          .model = model,
+  return {.model = model,
           .solver = std::make_shared<const Gantry>(*model, fault),
           .closed_form = true,
           .poses = 500,
           .edge_poses = 100};
 }
 
-INSTANTIATE_TEST_SUITE_P(Gantry, IkLaws, testing::Values(subject(Fault::none)),
+INSTANTIATE_TEST_SUITE_P(Gantry, IkLaws,
+                         testing::Values(IkLawCase{"gantry", [] { return subject(Fault::none); }}),
                          testing::PrintToStringParamName());
 
 struct Case {

@@ -4,9 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <ostream>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,7 +19,6 @@ class Probe;
 
 /// A solver made for a robot, and what it promises.
 struct IkSubject {
-  std::string name;
   std::shared_ptr<const RobotModel> model;
   std::shared_ptr<const IkSolver> solver;
   bool closed_form = false;  // `all_branches`: finds every branch; else at least one
@@ -31,8 +28,6 @@ struct IkSubject {
   bool any_seed_at_edges = true;  // the same at singular poses, limits and the rim: 99.5 %
   bool allocates = false;         // `allocates`: may allocate while it solves
   int edge_poses = 1000;          // of every set of edges
-
-  friend void PrintTo(const IkSubject& subject, std::ostream* out) { *out << subject.name; }
 };
 
 /// What a law needs of the program that it runs in.

@@ -42,7 +42,6 @@ Expected<IkSubject> plugin_subject(PluginRegistry& plugins, const PluginManifest
   if (!made) return tl::unexpected{made.error()};
   auto held = std::make_shared<PluginPtr<IkSolver>>(std::move(*made));
   IkSubject subject;
-  subject.name = plugin.id;
   subject.model = std::move(model);
   subject.solver = std::shared_ptr<const IkSolver>{held, &**held};
   subject.closed_form = provides(plugin, kAllBranches, params);

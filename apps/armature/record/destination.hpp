@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 
 #include "armature/runtime/reporting/draft.hpp"
+#include "record/record.hpp"
 
 namespace armature {
 
@@ -31,10 +30,8 @@ class Destination {
   void drop() { draft_.reset(); }
 
  private:
-  using OpenFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
   std::filesystem::path file_;
-  OpenFile older_{nullptr, &std::fclose};  // held: nobody writes it meanwhile
+  HeldFile older_;
   std::optional<Draft> draft_;
 };
 

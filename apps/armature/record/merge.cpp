@@ -165,7 +165,7 @@ JoinedRecording join_recordings(const std::vector<std::filesystem::path>& parts,
 
 int merge_recordings(const std::vector<std::filesystem::path>& parts,
                      const std::filesystem::path& out, bool force) {
-  refuse_to_replace(out, force);
+  const HeldFile older = hold_to_replace(out, force);
   const JoinedRecording joined = join_recordings(parts, out);
   for (const std::string& problem : joined.problems) {
     fmt::print(stderr, "armature: {}\n", problem);

@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
+#include <system_error>
 
 #include "armature/bus/topic_name.hpp"
 #include "armature/config/problems.hpp"
+#include "armature/recording/file_lock.hpp"
 #include "armature/runtime/deployment_file/record_config.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
@@ -79,12 +82,22 @@ void tell_lost(const Recorder& recorder) {
 
 }  // namespace
 
-void refuse_to_replace(const std::filesystem::path& file, bool force) {
+HeldFile hold_to_replace(const std::filesystem::path& file, bool may_be_replaced) {
+  HeldFile held{nullptr, &std::fclose};
   std::error_code error;
   const bool has_content =
       std::filesystem::is_regular_file(file, error) && std::filesystem::file_size(file, error) > 0;
-  if (!has_content || force) return;
-  throw InvalidChoice(fmt::format("'{}' is there already; --force replaces it", file.string()));
+  if (!has_content) return held;
+  if (!may_be_replaced) {
+    throw InvalidChoice(fmt::format("'{}' is there already; --force replaces it", file.string()));
+  }
+  held.reset(std::fopen(file.c_str(), "re"));
+  if (!held) {
+    throw std::runtime_error(fmt::format("cannot replace '{}': {}", file.string(),
+                                         std::generic_category().message(errno)));
+  }
+  lock_for_writing(fileno(held.get()), file);
+  return held;
 }
 
 int record_topics(const RecordOptions& options) {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <cstdio>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,8 +26,11 @@ int record_topics(const RecordOptions& options);
 /// Writes what can be read of a recording that was cut off as a whole one.
 int repair_recording(const std::filesystem::path& cut, const std::filesystem::path& whole,
                      bool force);
-/// Throws InvalidChoice when there is such a file with something in it, unless it may be replaced.
-void refuse_to_replace(const std::filesystem::path& file, bool force);
+/// A file that nobody else writes for as long as it is held; empty where nothing is to be held.
+using HeldFile = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
+/// Holds a file that has something in it, so that another can take its place. Throws InvalidChoice
+/// unless it may be replaced, and std::runtime_error while another program writes it.
+[[nodiscard]] HeldFile hold_to_replace(const std::filesystem::path& file, bool may_be_replaced);
 
 /// "69.062 MB".
 std::string megabytes(std::uint64_t bytes);

@@ -113,6 +113,23 @@ TEST(DamagedRecording, OnAFullDiskIsNotRepairedAtTheCostOfTheFileThatWasThere) {
   }
 }
 
+TEST(ARecordingThatIsBeingWritten, IsReplacedByNobody) {
+  const RecordingFile file{"damaged"}, written{"written"};
+  {
+    McapWriter writer{file.path(), {}};
+    write_all_but_the_end(writer, 10);
+  }
+  McapWriter writer{written.path(), {.chunk_bytes = 64}};
+  write_all_but_the_end(writer, 10);
+  const std::string before = written.bytes();
+  ASSERT_FALSE(before.empty());
+  const auto says = testing::ThrowsMessage<std::runtime_error>(
+      HasSubstr("written.mcap' is being written by another program"));
+  EXPECT_THAT([&] { repair_recording(file.path(), written.path(), true); }, says);
+  EXPECT_THAT([&] { merge_recordings({file.path()}, written.path(), true); }, says);
+  EXPECT_EQ(written.bytes(), before);
+}
+
 /// The text that `info` prints: results and complaints.
 std::string info_text(const InfoOptions& info, int exit_code) {
   testing::internal::CaptureStdout();

@@ -36,7 +36,7 @@ int repair_recording(const std::filesystem::path& cut, const std::filesystem::pa
   if (std::filesystem::equivalent(cut, whole, error)) {
     throw InvalidChoice(fmt::format("'{}' cannot be repaired in place: -o OTHER", cut.string()));
   }
-  refuse_to_replace(whole, force);
+  const HeldFile older = hold_to_replace(whole, force);
   McapReader reader{cut, true};
   Draft draft{whole, "repairing"};  // a full disk takes nothing that was there
   McapWriter writer{draft.path(), {.library = "armature " ARMATURE_VERSION}};

@@ -152,7 +152,7 @@ WrittenReport write_report(const ReportOptions& options) {
   if (std::filesystem::equivalent(options.recording, options.out, error)) {
     throw InvalidChoice(fmt::format("'{}' is the recording itself", options.out.string()));
   }
-  refuse_to_replace(options.out, options.force);
+  const HeldFile older = hold_to_replace(options.out, options.force);
   std::string page =
       bytes_of(options.page.empty() ? shipped_folder("monitor") / "index.html" : options.page);
   constexpr std::string_view kScript = "<script type=\"module\">";

@@ -103,6 +103,7 @@ void Biopsy::update(Time now) {
 
 /// The whole way is planned before anything moves; then it is gone on with, stop by stop.
 void Biopsy::set_out() {
+  trouble_.clear();
   heading_ = Heading::onward;
   if (way_stops_ > 0) return goal_.go_on();
   goal_.set_once({.pose = pose_at_target(*line_, robot_),
@@ -232,16 +233,13 @@ Expected<void> Biopsy::abort() {
 }
 
 void Biopsy::break_down(const std::string& why, Time now) {
-  if (!has_set_out_ && parameters_.touch_markers && !parameters_.auto_confirm) {
-    heading_ = Heading::none;
-    trouble_ = why;
-    give_to_hand(now);
-    return enter(Step::approach);
-  }
-  if (parameters_.auto_confirm || !has_set_out_) return refuse(why);
-  held_ = true;
+  if (parameters_.auto_confirm) return refuse(why);
   heading_ = turning_to_ = Heading::none;
   trouble_ = why;
+  held_ = has_set_out_;
+  if (held_) return;
+  if (parameters_.touch_markers) give_to_hand(now);
+  enter(Step::approach);
 }
 
 void Biopsy::refuse(const std::string& why) {

@@ -88,7 +88,8 @@ class Biopsy {
   Expected<void> abort();
   /// Along the way, once the arm rests.
   void turn_to(Heading heading);
-  /// For good; or, of a needle that has set out, until an operator who is there leads it back.
+  /// For good; or, where an operator is there, until he leads back a needle that has set out, or
+  /// confirms again the approach of one that has not.
   void break_down(const std::string& why, Time now);
   void refuse(const std::string& why);
 

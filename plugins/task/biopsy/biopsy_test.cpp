@@ -390,7 +390,7 @@ TEST_F(OperatedBiopsyTest, ANeedleThatCameBackToWhereItBeganHasNotSetOut) {
   EXPECT_EQ(say("confirm", "approach"), "");
   EXPECT_EQ(sent().mode, MotionMode::planned);
   fail("path", "a vessel");
-  EXPECT_EQ(task_->phase(), Phase::refused);
+  EXPECT_EQ(asked(), "approach");
 }
 
 TEST_F(OperatedBiopsyTest, ANeedleThatWaitsForTheOperatorIsNotLedOutByAnArmThatIsStopped) {
@@ -420,11 +420,17 @@ TEST_F(OperatedBiopsyTest, BackFromABreakdownGoesToTheStopBefore) {
   EXPECT_EQ(asked(), "approach") << "where it began";
 }
 
-TEST_F(OperatedBiopsyTest, APlanThatIsRefusedBeforeAnythingMovedIsTheEnd) {
+TEST_F(OperatedBiopsyTest, AWayThatIsRefusedBeforeAnythingMovedIsAskedForAgain) {
   say("confirm", "approach");
-  sent();
-  fail("path", "a vessel");
-  EXPECT_EQ(task_->phase(), Phase::refused);
+  const MotionGoal first = sent();
+  fail("accept", "the arm was stopped and rearmed since");
+  expect_no_goal();
+  EXPECT_EQ(asked(), "approach");
+  EXPECT_EQ(task_->trouble(), "accept: the arm was stopped and rearmed since");
+  EXPECT_EQ(say("confirm", "approach"), "");
+  const MotionGoal second = sent();
+  EXPECT_EQ(second.mode, MotionMode::planned);
+  EXPECT_GT(second.id, first.id);
 }
 
 TEST_F(BiopsyTest, ARobotWithoutAPointingAxisIsGivenTheRotationNearestToHome) {

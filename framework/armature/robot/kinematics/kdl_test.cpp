@@ -3,6 +3,8 @@
 // configs/robots, both read anew for KDL.
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <functional>
 #include <kdl/chainfksolverpos_recursive.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 #include <numbers>
@@ -20,12 +22,17 @@ using Eigen::Isometry3d;
 
 /// An arm both ways; the chain's joints are all of the model's, in order.
 struct Arm {
-  std::string name;
   RobotModel model;
   KDL::Chain chain;
 };
 
-void PrintTo(const Arm& arm, std::ostream* out) { *out << arm.name; }
+/// Its file is read by the test that needs it: every test is a program of its own.
+struct ArmFile {
+  std::string name;
+  std::function<Arm()> read;
+
+  friend void PrintTo(const ArmFile& file, std::ostream* out) { *out << file.name; }
+};
 
 Isometry3d from_kdl(const KDL::Frame& frame) {
   Isometry3d T = Isometry3d::Identity();
@@ -43,24 +50,31 @@ KDL::Frame to_kdl(const Isometry3d& T) {
           {p.x(), p.y(), p.z()}};
 }
 
-Arm urdf_arm(const std::string& name, const std::string& base, const std::string& tip) {
+ArmFile urdf_arm(const std::string& name, const std::string& base, const std::string& tip) {
   const std::string file = ARMATURE_SOURCE_DIR "/tests/data/urdf/" + name + ".urdf";
-  return {name, load_urdf_robot(file, {base, {}}, {tip, {}}),
-          testing::kdl_chain_of_urdf(*urdf::parseURDFFile(file), base, tip)};
+  return {name, [=] {
+            return Arm{load_urdf_robot(file, {base, {}}, {tip, {}}),
+                       testing::kdl_chain_of_urdf(*urdf::parseURDFFile(file), base, tip)};
+          }};
 }
 
-std::vector<Arm> arms() {
-  std::vector<Arm> list{
+Arm arm_of_rows(const fs::path& file) {
+  RobotModel model = load_robot_model(file);
+  KDL::Chain chain = testing::kdl_chain_of_rows(model);
+  chain.addSegment(
+      KDL::Segment{KDL::Joint{KDL::Joint::None}, to_kdl(model.frame(model.tool()).parent_T_frame)});
+  return {std::move(model), std::move(chain)};
+}
+
+std::vector<ArmFile> arms() {
+  std::vector<ArmFile> list{
       urdf_arm("skew_puma", "world", "tool0"),   urdf_arm("skew_puma", "foot", "wrist_2"),
       urdf_arm("skew_puma", "column", "flange"), urdf_arm("seven_joints", "base_link", "hand"),
       urdf_arm("gantry", "rail", "gripper"),     urdf_arm("gantry", "beam", "camera")};
   for (const auto& entry : fs::directory_iterator{ARMATURE_SOURCE_DIR "/configs/robots"}) {
-    if (entry.path().extension() != ".yaml") continue;
-    RobotModel model = load_robot_model(entry.path());
-    KDL::Chain chain = testing::kdl_chain_of_rows(model);
-    chain.addSegment(KDL::Segment{KDL::Joint{KDL::Joint::None},
-                                  to_kdl(model.frame(model.tool()).parent_T_frame)});
-    list.push_back({model.name(), std::move(model), std::move(chain)});
+    const fs::path& file = entry.path();
+    if (file.extension() != ".yaml") continue;
+    list.push_back({file.stem().string(), [file] { return arm_of_rows(file); }});
   }
   return list;
 }
@@ -93,12 +107,12 @@ Jacobian folded(const RobotModel& model, const Eigen::MatrixXd& all) {
   return J;
 }
 
-class AgainstKdl : public ::testing::TestWithParam<Arm> {};
+class AgainstKdl : public ::testing::TestWithParam<ArmFile> {};
 
 constexpr unsigned kSeed = 41;
 
 TEST_P(AgainstKdl, ForwardKinematicsAreTheSame) {
-  const Arm& arm = GetParam();
+  const Arm arm = GetParam().read();
   ASSERT_EQ(static_cast<int>(arm.chain.getNrOfJoints()), arm.model.joint_count());
   KDL::ChainFkSolverPos_recursive kdl{arm.chain};
   std::mt19937 random{kSeed};
@@ -113,7 +127,7 @@ TEST_P(AgainstKdl, ForwardKinematicsAreTheSame) {
 }
 
 TEST_P(AgainstKdl, JacobiansAreTheSame) {
-  const Arm& arm = GetParam();
+  const Arm arm = GetParam().read();
   KDL::ChainJntToJacSolver kdl{arm.chain};
   KDL::Jacobian expected{arm.chain.getNrOfJoints()};
   std::mt19937 random{kSeed + 1};

@@ -71,14 +71,4 @@ double hounsfield_at(const Volume& volume, const Eigen::Vector3d& point) {
   return slice(low[2]) * (1 - part[2]) + slice(high[2]) * part[2];
 }
 
-Eigen::Vector3d gradient_at(const Volume& volume, const Eigen::Vector3d& point, double step) {
-  Eigen::Vector3d gradient;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Eigen::Vector3d aside = step * Eigen::Vector3d::Unit(axis);
-    gradient[axis] =
-        (hounsfield_at(volume, point + aside) - hounsfield_at(volume, point - aside)) / (2 * step);
-  }
-  return gradient;
-}
-
 }  // namespace armature

@@ -53,8 +53,4 @@ std::optional<std::string> invalid_input(const Volume& volume);
 /// outside of what is known. Real-time safe.
 double hounsfield_at(const Volume& volume, const Eigen::Vector3d& point);
 
-/// The direction in which the value grows fastest at `point`, times its growth [1/m]: central
-/// differences over `step` [m] along the axes of the image.
-Eigen::Vector3d gradient_at(const Volume& volume, const Eigen::Vector3d& point, double step);
-
 }  // namespace armature

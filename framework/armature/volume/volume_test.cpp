@@ -46,7 +46,6 @@ TEST(Volumes, AreLinearBetweenVoxelsAndAirOutside) {
         volume.geometry.point_at({place(random), place(random), place(random)});
     EXPECT_NEAR(hounsfield_at(volume, point), slope.dot(point), 0.5);
   }
-  EXPECT_LT((gradient_at(volume, volume.geometry.point_at({9, 9, 8}), 0.003) - slope).norm(), 300);
   EXPECT_EQ(hounsfield_at(volume, {0, 0, 0}), kAirHu);
   EXPECT_EQ(hounsfield_at(volume, volume.geometry.point_at({19, 23, 15.001})), kAirHu);
 }

@@ -11,16 +11,12 @@
 #include <vector>
 
 #include "armature/kinds/component/laws.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature {
 namespace {
 
 namespace fs = std::filesystem;
-
-PluginRegistry& registry() {
-  static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return plugins;
-}
 
 /// Entries of components that cannot be made with defaults alone.
 std::string entry_of(const PluginManifest& plugin) {
@@ -77,7 +73,7 @@ Made made(const PluginManifest& plugin) {
       ComponentHarness::Options options{.component = entry_of(plugin)};
       if (!robot.empty()) options.robot = config::load(configs / "robots" / (robot + ".yaml"));
       if (!rig.empty()) options.rig = config::load(configs / "rigs" / (rig + ".yaml"));
-      found.refusal = refusal_of(registry(), options);
+      found.refusal = refusal_of(built_plugins(), options);
       if (found.refusal.empty()) return {options, ""};
     }
   }
@@ -87,10 +83,11 @@ Made made(const PluginManifest& plugin) {
 void expect_lawful(const PluginManifest& plugin, const ComponentHarness::Options& options) {
   for (const Law<ComponentSubject>& law : component_laws()) {
     const LawReport report = check_law(
-        law, ComponentSubject{
-                 .name = plugin.id,
-                 .make = [&] { return std::make_unique<ComponentHarness>(registry(), options); },
-                 .rounds = 50});
+        law,
+        ComponentSubject{
+            .name = plugin.id,
+            .make = [&] { return std::make_unique<ComponentHarness>(built_plugins(), options); },
+            .rounds = 50});
     EXPECT_TRUE(report.kept()) << law.name;
     for (const auto& [what, question] : report.violations)
       ADD_FAILURE() << what << "\n" << question;
@@ -115,7 +112,7 @@ class LawTest : public testing::Test {
 };
 
 bool add_all_tests() {
-  for (const PluginManifest& plugin : registry().plugins()) {
+  for (const PluginManifest& plugin : built_plugins().plugins()) {
     if (plugin.kind != Component::kKind) continue;
     std::string name = plugin.id;
     std::ranges::replace(name, '/', '_');

@@ -15,17 +15,13 @@
 #include "armature/kinds/ik/contract.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
 #include "armature/robot/files/urdf_robot.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature {
 namespace {
 
 namespace fs = std::filesystem;
 using RobotPtr = std::shared_ptr<const RobotModel>;
-
-PluginRegistry& registry() {
-  static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return plugins;
-}
 
 /// Such a file is an arm that has one of its own, with another tool.
 bool includes_another(const fs::path& robot_file) {
@@ -106,7 +102,7 @@ void add_tests_of(const PluginManifest& plugin, const Params& params, const Robo
   if (!has_poses(robot)) return;
   // Made anew in every test: no library is held while none of its tests runs.
   const auto subject = [&plugin, params, robot] {
-    auto made = plugin_subject(registry(), plugin, robot, params);
+    auto made = plugin_subject(built_plugins(), plugin, robot, params);
     // Without that promise any answer will do there, which fewer questions show.
     if (made && !made->any_seed_at_edges) made->edge_poses = 200;
     return made;
@@ -122,7 +118,7 @@ void add_loading_test(const PluginManifest& plugin, const Params& params,
   add_test("unloading", plugin.id, [&plugin, params, robots] {
     for (const RobotFile& file : robots) {
       const RobotPtr robot = file.read();
-      if (!has_poses(robot) || !plugin_subject(registry(), plugin, robot, params)) continue;
+      if (!has_poses(robot) || !plugin_subject(built_plugins(), plugin, robot, params)) continue;
       const LawReport report =
           check_loading({ARMATURE_PLUGIN_BUILD_DIR}, plugin.id, *robot, params, 100);
       for (const auto& [what, question] : report.violations) ADD_FAILURE() << what;
@@ -134,7 +130,7 @@ void add_loading_test(const PluginManifest& plugin, const Params& params,
 
 void add_all_tests() {
   const std::vector<RobotFile> all = robots();
-  for (const PluginManifest& plugin : registry().plugins()) {
+  for (const PluginManifest& plugin : built_plugins().plugins()) {
     if (plugin.kind != IkSolver::kKind) continue;
     add_test("provides", plugin.id, [&plugin] { EXPECT_EQ(wrong_promises(plugin), ""); });
     const auto params = defaults(plugin);

@@ -17,6 +17,7 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature {
 namespace {
@@ -24,11 +25,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kRadius_m = 0.05;
-
-PluginRegistry& every_plugin() {
-  static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return plugins;
-}
 
 /// An arm, its solver, how fast it is driven, and where it rests at first.
 struct FollowingArm {
@@ -50,7 +46,7 @@ class CircleRun {
   CircleRun(const FollowingArm& arm, const Vector3d& axis, double hz)
       : points_{arm.robot == "dental_lamp"},
         arm_{load_robot_model(file_of(arm))},
-        motion_{every_plugin(),
+        motion_{built_plugins(),
                 {.component = "{plugin: motion, params: {" + arm.limits +
                               "}, path: {plugin: path/joint_move}, ik: {plugin: " + arm.ik +
                               "}, select: {plugin: select/nearest}, trajectory: {plugin: "

@@ -14,7 +14,7 @@
 #include "armature/robot/orientations/corner_blend.hpp"
 #include "armature/robot/orientations/orientation_curve.hpp"
 #include "armature/robot/orientations/orientation_probe_test.hpp"
-#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::paper {
 namespace {
@@ -52,9 +52,9 @@ class Drill : public ::testing::Test {
     return goal;
   }
   Plan planned(const std::string& interpolator) {
-    const auto path =
-        plugins_.make<PathPlanner>("path/orientations", model_,
-                                   params_of("path/orientations", "interpolator: " + interpolator));
+    const auto path = built_plugins().make<PathPlanner>(
+        "path/orientations", model_,
+        params_of("path/orientations", "interpolator: " + interpolator));
     const PlanStages stages{**path, *ik_, *select_, *trajectory_};
     GoalPlanner planner{model_, stages, {model_.max_velocity(), model_.max_acceleration()}};
     auto plan = planner.plan(goal(), {home_, rest_, rest_}, Time{});
@@ -64,16 +64,16 @@ class Drill : public ::testing::Test {
 
   const RobotModel model_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml");
   const JointVector home_ = *model_.home(), rest_ = JointVector::Zero(7);
-  PluginRegistry plugins_{{ARMATURE_PLUGIN_BUILD_DIR}};
-  PluginPtr<IkSolver> ik_ = plugins_
+  PluginPtr<IkSolver> ik_ = built_plugins()
                                 .make<IkSolver>("ik/srs_arm_angle", model_,
                                                 params_of("ik/srs_arm_angle", "objective: limits"))
                                 .value();
   PluginPtr<BranchSelector> select_ =
-      plugins_.make<BranchSelector>("select/nearest", model_, params_of("select/nearest", ""))
+      built_plugins()
+          .make<BranchSelector>("select/nearest", model_, params_of("select/nearest", ""))
           .value();
   PluginPtr<TrajectoryPlanner> trajectory_ =
-      plugins_
+      built_plugins()
           .make<TrajectoryPlanner>("trajectory/quintic_spline",
                                    params_of("trajectory/quintic_spline", ""))
           .value();

@@ -14,7 +14,7 @@
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/robot/geometry/guided_chain.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {
@@ -30,13 +30,12 @@ const RobotModel& med7() {
 
 /// ik/srs_arm_angle as a deployment makes it.
 const IkSolver& solver(const std::string& objective) {
-  static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
   static std::map<std::string, PluginPtr<IkSolver>> made;
   const auto found = made.find(objective);
   if (found != made.end()) return *found->second;
   const Params params = declared_params(ARMATURE_SOURCE_DIR "/plugins/ik/srs_arm_angle/plugin.yaml",
                                         "{objective: " + objective + "}");
-  auto one = plugins.make<IkSolver>("ik/srs_arm_angle", med7(), params);
+  auto one = built_plugins().make<IkSolver>("ik/srs_arm_angle", med7(), params);
   return *made.emplace(objective, std::move(one.value())).first->second;
 }
 

@@ -10,7 +10,7 @@
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {
@@ -30,10 +30,6 @@ const RobotModel& master() {
   return model;
 }
 
-PluginRegistry& registry() {
-  static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return plugins;
-}
 Params defaults(const std::string& id) {
   return declared_params(ARMATURE_SOURCE_DIR "/plugins/" + id + "/plugin.yaml");
 }
@@ -46,8 +42,8 @@ JointVector joints(const Figures& figures) {
 }
 
 IkBranches solve(const Eigen::Isometry3d& pose) {
-  static const auto solver =
-      std::move(registry().make<IkSolver>("ik/rrp_zyz", master(), defaults("ik/rrp_zyz")).value());
+  static const auto solver = std::move(
+      built_plugins().make<IkSolver>("ik/rrp_zyz", master(), defaults("ik/rrp_zyz")).value());
   IkGoal goal;
   goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
   IkBranches found;
@@ -156,7 +152,7 @@ class MasterMotion : public ::testing::Test {
  protected:
   static Trajectory planned() {
     const auto planner =
-        std::move(registry()
+        std::move(built_plugins()
                       .make<TrajectoryPlanner>("trajectory/quintic", defaults("trajectory/quintic"))
                       .value());
     const Figures motion = reference()["trajectory"];

@@ -6,14 +6,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::paper {
 
 SolvedArm solved_arm(RobotModel model) {
-  static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
   SolvedArm arm{.model = std::make_shared<const RobotModel>(std::move(model)), .solver = {}};
-  auto solver = plugins.make<IkSolver>("ik/puma_algebraic", *arm.model, Params{});
+  auto solver = built_plugins().make<IkSolver>("ik/puma_algebraic", *arm.model, Params{});
   if (!solver) throw std::runtime_error(solver.error().text);
   auto held = std::make_shared<PluginPtr<IkSolver>>(std::move(*solver));
   arm.solver = std::shared_ptr<const IkSolver>{held, &**held};

@@ -5,7 +5,7 @@
 #include "armature/config/problems.hpp"
 #include "armature/kinds/path/path.hpp"
 #include "armature/robot/model/robot_model.hpp"
-#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {
@@ -34,12 +34,11 @@ TEST(Sr1Plan, HasTheDepthAndTheClearancesOfTheReference) {
 TEST(Sr1Plan, PathNeedleRefusesTheZoneThatIsTooNearAndTakesTheOther) {
   const Figures figures = sr1()["plan"];
   const Eigen::Vector3d entry = figures["entry"].point_m(), target = figures["target"].point_m();
-  PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
   config::Problems problems;
   const std::string id = "path/needle";
   const RobotModel robot = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
-  const Params defaults = Params::read(plugins.find(id)->params, nullptr, id, problems);
-  const auto planner = *plugins.make<PathPlanner>(id, robot, defaults);
+  const Params defaults = Params::read(built_plugins().find(id)->params, nullptr, id, problems);
+  const auto planner = *built_plugins().make<PathPlanner>(id, robot, defaults);
   const Direction along{(target - entry).normalized()};
   PathRequest request{.start = {entry - 0.2 * along.unit, Direction{{0, 0, 1}}},
                       .goal = {target, along},

@@ -9,17 +9,16 @@
 #include "armature/config/document.hpp"
 #include "armature/kinds/registration/marker_matching.hpp"
 #include "armature/kinds/registration/registration.hpp"
-#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {
 namespace {
 
 PluginPtr<Registrar> registrar(const std::string& id) {
-  static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
   config::Problems problems;
-  const Params defaults = Params::read(plugins.find(id)->params, nullptr, id, problems);
-  return *plugins.make<Registrar>(id, defaults);
+  const Params defaults = Params::read(built_plugins().find(id)->params, nullptr, id, problems);
+  return *built_plugins().make<Registrar>(id, defaults);
 }
 
 std::vector<Eigen::Vector3d> points(const Figures& figures) {

@@ -12,24 +12,20 @@
 #include "armature/robot/files/urdf_robot.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/model/test_robots.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::ik::kdl {
 namespace {
 
 using ModelPtr = std::shared_ptr<const RobotModel>;
 
-PluginRegistry& registry() {
-  static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
-  return plugins;
-}
-
 Expected<IkSubject> kdl(const ModelPtr& model, const std::string& method) {
-  const PluginManifest& plugin = *registry().find("ik/kdl");
+  const PluginManifest& plugin = *built_plugins().find("ik/kdl");
   config::Problems problems;
   const auto given = config::parse_text("{method: " + method + "}", "test");
   const Params params = Params::read(plugin.params, &given, plugin.id, problems);
   problems.throw_if_any();
-  return plugin_subject(registry(), plugin, model, params);
+  return plugin_subject(built_plugins(), plugin, model, params);
 }
 
 ModelPtr robot(const std::string& name) {

@@ -11,7 +11,7 @@
 #include "armature/kinds/registration/marker_matching.hpp"
 #include "armature/kinds/registration/registration.hpp"
 #include "armature/kinds/registration/target_error.hpp"
-#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature::sim::marked_head {
 namespace {
@@ -32,11 +32,10 @@ MarkedHead head() {
 }
 
 PluginPtr<Registrar> rigid() {
-  static PluginRegistry plugins{{ARMATURE_PLUGIN_BUILD_DIR}};
   config::Problems problems;
   const std::string id = "registration/rigid";
-  return *plugins.make<Registrar>(id,
-                                  Params::read(plugins.find(id)->params, nullptr, id, problems));
+  return *built_plugins().make<Registrar>(
+      id, Params::read(built_plugins().find(id)->params, nullptr, id, problems));
 }
 
 TEST(MarkedHeads, AreFoundInAnOrderThatTheSeedDecides) {

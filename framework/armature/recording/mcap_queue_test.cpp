@@ -2,7 +2,6 @@
 #include "armature/recording/mcap_queue.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +14,7 @@
 
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/recording_test.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature {
 namespace {
@@ -27,9 +27,6 @@ constexpr const char* kType = "std_msgs::msg::dds_::Bool_";
 
 class McapQueueTest : public ::testing::Test {
  protected:
-  McapQueueTest() { fs::create_directories(folder_); }
-  ~McapQueueTest() override { fs::remove_all(folder_); }
-
   static void write(McapQueue& queue, std::uint16_t channel, double at_s) {
     queue.write(channel, 1, Time{} + seconds(at_s), Time{} + seconds(at_s),
                 std::vector<std::byte>(5));
@@ -52,8 +49,7 @@ class McapQueueTest : public ::testing::Test {
             .told = [this](const fs::path& file) { told_.push_back(file.filename()); }};
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-mcap-queue-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
   std::vector<std::string> told_;
 };
 
@@ -119,7 +115,7 @@ TEST_F(McapQueueTest, WithoutAMomentThereIsNoFile) {
   McapQueue queue{around(2), {}};
   write(queue, queue.add_channel("/a", kType), 1);
   queue.close();
-  EXPECT_TRUE(fs::is_empty(folder_));
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(McapQueueTest, TellsWhatItCannotWriteAndTakesNoMore) {

@@ -11,7 +11,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <random>
 #include <span>
 #include <string>
@@ -19,6 +18,7 @@
 #include <vector>
 
 #include "armature/recording/mcap_writer.hpp"
+#include "armature/values/file_content.hpp"
 
 namespace armature {
 
@@ -52,10 +52,7 @@ class RecordingFile {
   RecordingFile& operator=(const RecordingFile&) = delete;
 
   const std::filesystem::path& path() const { return path_; }
-  std::string bytes() const {
-    std::ifstream stream{path_, std::ios::binary};
-    return {std::istreambuf_iterator<char>{stream}, {}};
-  }
+  std::string bytes() const { return content_of(path_); }
   void replace(const std::string& bytes) const {
     std::filesystem::remove(path_);  // one that is emptied and written goes to the disk at once
     std::ofstream{path_, std::ios::binary} << bytes;

@@ -7,12 +7,12 @@
 //
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <Eigen/Geometry>
 #include <filesystem>
 #include <fstream>
 
+#include "armature/values/temporary_folder.hpp"
 #include "armature/volume/dicom_series.hpp"
 #include "armature/volume/phantom.hpp"
 #include "armature/volume/read_volume.hpp"
@@ -46,9 +46,6 @@ struct Slice {
 
 class DicomSeries : public testing::Test {
  protected:
-  DicomSeries() { fs::create_directories(folder_); }
-  ~DicomSeries() override { fs::remove_all(folder_); }
-
   static std::string numbers(const Vector3d& v) {
     return fmt::format("{:.10g}\\{:.10g}\\{:.10g}", v.x(), v.y(), v.z());
   }
@@ -101,19 +98,18 @@ class DicomSeries : public testing::Test {
     return like;
   }
   std::string refusal() const {
-    const auto volume = read_volume(folder_);
+    const auto volume = read_volume(folder_.path());
     if (volume) return "read";
-    return volume.error().text.substr(folder_.string().size() + 1);
+    return volume.error().text.substr(folder_.path().string().size() + 1);
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-dicom-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(DicomSeries, IsReadInTheOrderOfItsPlacesWhateverItsNames) {
   for (const int i : {0, 1, 2, 3}) write(at(3 - i, 1.25 * i));
   std::ofstream{folder_ / "README"} << "no DICOM";
-  const auto volume = read_volume(folder_);
+  const auto volume = read_volume(folder_.path());
   ASSERT_TRUE(volume) << volume.error().text;
   EXPECT_EQ(volume->geometry.size, (std::array{4, 3, 4}));
   EXPECT_LT((volume->geometry.spacing - Vector3d{0.00075, 0.0005, 0.00125}).norm(), 1e-12);
@@ -132,7 +128,7 @@ TEST_F(DicomSeries, MayLieAnyhowInThePatientAndInEveryUncompressedForm) {
   for (const auto syntax :
        {EXS_LittleEndianExplicit, EXS_LittleEndianImplicit, EXS_BigEndianExplicit}) {
     for (int i = 0; i < 3; ++i) write(at(i, 1.25 * i, turned), syntax);
-    const auto volume = read_volume(folder_);
+    const auto volume = read_volume(folder_.path());
     ASSERT_TRUE(volume) << volume.error().text;
     EXPECT_LT((volume->geometry.direction - rotation).norm(), 1e-8);
     EXPECT_EQ(volume->at(3, 0, 2), 2 * 203 - 1024);
@@ -153,7 +149,7 @@ TEST_F(DicomSeries, OfAHeadIsTheVolumeThatItWasWrittenFrom) {
     }
     write(slice);
   }
-  const auto volume = read_volume(folder_);
+  const auto volume = read_volume(folder_.path());
   ASSERT_TRUE(volume) << volume.error().text;
   for (std::size_t i = 0; i < head.voxels.size(); ++i) {
     ASSERT_NEAR(volume->voxels[i], head.voxels[i], 1) << i;  // a step of the file is two
@@ -168,7 +164,7 @@ TEST_F(DicomSeries, OfTwelveSignedBitsHasAirBelowAndBoneAboveZero) {
   slice.intercept = "0";
   slice.pixels = {0x0C18, 0x0FFF, 0x0800, 0x07FF, 0x0000, 0x0001};  // two's complement of 12 bits
   write_series(3, slice);
-  const auto volume = read_volume(folder_);
+  const auto volume = read_volume(folder_.path());
   ASSERT_TRUE(volume) << volume.error().text;
   EXPECT_EQ(std::vector<std::int16_t>(volume->voxels.begin(), volume->voxels.begin() + 6),
             (std::vector<std::int16_t>{-1000, -1, -2048, 2047, 0, 1}));
@@ -180,13 +176,14 @@ TEST_F(DicomSeries, WithAnOverlayInTheUnusedBitsHasTheDensitiesOfTheOthers) {
   slice.slope = "1";
   slice.pixels = {0x1000 | 24, 0x8000 | 1024, 0x0FFF, 0xF000, 0xFFFF, 7};
   write_series(3, slice);
-  const auto volume = read_volume(folder_);
+  const auto volume = read_volume(folder_.path());
   ASSERT_TRUE(volume) << volume.error().text;
   EXPECT_EQ(std::vector<std::int16_t>(volume->voxels.begin(), volume->voxels.begin() + 6),
             (std::vector<std::int16_t>{-1000, 0, 3071, -1024, 3071, -1017}));
   slice.bits.is_signed = true;
   write_series(3, slice);
-  EXPECT_EQ(read_volume(folder_)->at(2, 0, 0), -1025) << "signed: all bits above are its sign";
+  EXPECT_EQ(read_volume(folder_.path())->at(2, 0, 0), -1025)
+      << "signed: all bits above are its sign";
 }
 
 TEST_F(DicomSeries, WhosePixelsAreNotInTheLowestBitsIsRefused) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The navigation view on its topics: where the tool is in the image, and pictures of that.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
@@ -14,6 +13,7 @@
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "armature/volume/nrrd.hpp"
 #include "armature/volume/phantom.hpp"
 
@@ -25,9 +25,6 @@ using Eigen::Vector3d;
 
 class SectionsComponentTest : public testing::Test {
  protected:
-  SectionsComponentTest() { fs::create_directories(folder_); }
-  ~SectionsComponentTest() override { fs::remove_all(folder_); }
-
   void show_volume_and_plan() {
     VolumeGeometry geometry{.size = {51, 51, 51}, .spacing = Vector3d::Constant(0.002)};
     geometry.origin = Vector3d::Constant(-0.05);
@@ -62,8 +59,7 @@ class SectionsComponentTest : public testing::Test {
     view_.send("measured_js", state);
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-view-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
   const config::Node robot_ = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
   const RobotModel model_ = read_robot_model(robot_);
   const Vector3d tip_ = forward_kinematics(model_, *model_.home()).translation();
@@ -112,7 +108,7 @@ TEST_F(SectionsComponentTest, ShowThreePicturesWhileSomebodyLooks) {
 TEST_F(SectionsComponentTest, WriteTheSectionsThroughTheTargetIntoTheReport) {
   show_volume_and_plan();
   view_.step(100);
-  view_.component().write_files(folder_);
+  view_.component().write_files(folder_.path());
   for (const char* name : {"axial", "coronal", "sagittal"}) {
     const cv::Mat picture = cv::imread(folder_ / (std::string{"section_"} + name + ".png"));
     EXPECT_EQ(picture.size(), cv::Size(128, 128)) << name;
@@ -121,8 +117,8 @@ TEST_F(SectionsComponentTest, WriteTheSectionsThroughTheTargetIntoTheReport) {
 
 TEST_F(SectionsComponentTest, WithoutAVolumeWriteNothing) {
   view_.step(100);
-  view_.component().write_files(folder_);
-  EXPECT_TRUE(fs::is_empty(folder_));
+  view_.component().write_files(folder_.path());
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST(SectionsComponent, RefuseAWindowThatIsTurnedRound) {

@@ -3,12 +3,10 @@
 // where, 4. a disk that is full.
 #include <gmock/gmock.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 #include <stdexcept>
@@ -20,6 +18,8 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature::report::joints {
 namespace {
@@ -43,8 +43,7 @@ std::vector<std::string> fields_of(const std::string& line) {
 
 /// The rows of a table under the names of its columns; every line must end with CR LF.
 std::vector<Row> rows_in(const fs::path& file) {
-  std::ifstream in{file};
-  const std::string text{std::istreambuf_iterator<char>{in}, {}};
+  const std::string text = content_of(file);
   EXPECT_TRUE(text.ends_with("\r\n"));
   std::istringstream lines{text};
   std::string line;
@@ -69,9 +68,6 @@ double number(const Row& row, const std::string& column) { return std::stod(row.
 
 class JointsReportTest : public testing::Test {
  protected:
-  JointsReportTest() { fs::create_directories(folder_); }
-  ~JointsReportTest() override { fs::remove_all(folder_); }
-
   ComponentHarness bench(const std::string& more = "") const {
     return {built_plugins(),
             {.component = "{plugin: report/joints, params: {file: " + stem() + more + "}}",
@@ -123,8 +119,7 @@ class JointsReportTest : public testing::Test {
 
   const RobotModel model_ = load_robot_model(kRobotFile);
   const JointVector home_ = *model_.to_independent(*model_.home());
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-joints-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 // 1.
@@ -291,9 +286,8 @@ TEST_F(JointsReportTest, ThePictureIsWrittenAtTheEndAndAnOlderOneGoesAtTheStart)
   auto report = bench();
   EXPECT_FALSE(fs::exists(svg()));
   run(report, 0, 101);
-  report.component().write_files(folder_);
-  std::ifstream in{svg()};
-  const std::string picture{std::istreambuf_iterator<char>{in}, {}};
+  report.component().write_files(folder_.path());
+  const std::string picture = content_of(svg());
   for (const char* title : {">joint position [rad]<", ">joint position [m]<", ">joint speed [m/s]<",
                             ">joint error, measured - reference [rad]<"}) {
     EXPECT_THAT(picture, HasSubstr(title));
@@ -307,12 +301,12 @@ TEST_F(JointsReportTest, WithoutAFileItWritesNothingAndIsNeverActivated) {
       {.component = "{plugin: report/joints}", .robot = config::load(kRobotFile), .rig = {}}};
   EXPECT_FALSE(report.period());
   run(report, 0, 41);
-  report.component().write_files(folder_);
-  EXPECT_TRUE(fs::is_empty(folder_));
+  report.component().write_files(folder_.path());
+  EXPECT_TRUE(fs::is_empty(folder_.path()));
 }
 
 TEST_F(JointsReportTest, AFolderThatIsNotThereIsRefusedBeforeAnythingMoves) {
-  fs::remove_all(folder_);
+  fs::remove_all(folder_.path());
   const std::string refused = refusal_of(
       built_plugins(), {.component = "{plugin: report/joints, params: {file: " + stem() + "}}",
                         .robot = config::load(kRobotFile),
@@ -340,7 +334,7 @@ TEST_F(JointsReportTest, AFullDiskIsToldOnceWithTheFileAndTheRowsBeforeItAreWhol
   };
   EXPECT_EQ(std::ranges::count_if(report.lines(), names_it), 1);
   EXPECT_EQ(rows_in(csv()), before);
-  EXPECT_THROW(report.component().write_files(folder_), std::runtime_error);
+  EXPECT_THROW(report.component().write_files(folder_.path()), std::runtime_error);
   EXPECT_TRUE(fs::exists(svg()));
 }
 

@@ -13,6 +13,8 @@
 #include <fstream>
 #include <set>
 
+#include "armature/values/temporary_folder.hpp"
+
 namespace armature {
 namespace {
 
@@ -20,16 +22,11 @@ namespace fs = std::filesystem;
 
 class SharedMemoryTest : public testing::Test {
  protected:
-  SharedMemoryTest() {
-    std::string name = (fs::temp_directory_path() / "armature_shm_XXXXXX").string();
-    folder_ = mkdtemp(name.data());
-  }
-  ~SharedMemoryTest() override { fs::remove_all(folder_); }
-
   void touch(const std::string& name) { std::ofstream{folder_ / name} << "x"; }
   std::set<std::string> files() const {
     std::set<std::string> names;
-    for (const auto& entry : fs::directory_iterator{folder_}) names.insert(entry.path().filename());
+    for (const auto& entry : fs::directory_iterator{folder_.path()})
+      names.insert(entry.path().filename());
     return names;
   }
   /// "fast_datasharing_" of a process.
@@ -40,7 +37,7 @@ class SharedMemoryTest : public testing::Test {
                   static_cast<unsigned>(pid) & 0xff, static_cast<unsigned>(pid) >> 8 & 0xff);
     return text;
   }
-  fs::path folder_;
+  const TemporaryFolder folder_;
 };
 
 /// `folder` on a file system that has so much room left.
@@ -50,17 +47,17 @@ SharedMemory with_room(const fs::path& folder, std::uint64_t bytes) {
 }
 
 TEST_F(SharedMemoryTest, IsUsableWhenThereIsRoom) {
-  EXPECT_TRUE(check_shared_memory(with_room(folder_, 18U << 20), 18U << 20));
+  EXPECT_TRUE(check_shared_memory(with_room(folder_.path(), 18U << 20), 18U << 20));
 }
 
 TEST_F(SharedMemoryTest, TooLittleIsToldWithBothSizes) {
-  const auto usable = check_shared_memory(with_room(folder_, (18U << 20) - 1), 18U << 20);
+  const auto usable = check_shared_memory(with_room(folder_.path(), (18U << 20) - 1), 18U << 20);
   ASSERT_FALSE(usable);
-  EXPECT_EQ(usable.error().text, folder_.string() + " has 17 MiB free, 18 MiB are needed");
+  EXPECT_EQ(usable.error().text, folder_.path().string() + " has 17 MiB free, 18 MiB are needed");
 }
 
 TEST_F(SharedMemoryTest, TheRoomOfARealFolderIsMeasured) {
-  EXPECT_GT(free_bytes_of(folder_).value(), 0U);
+  EXPECT_GT(free_bytes_of(folder_.path()).value(), 0U);
   EXPECT_EQ(free_bytes_of("/proc").value(), 0U);
   EXPECT_EQ(free_bytes_of("/none").error().text, "/none: No such file or directory");
 }
@@ -73,7 +70,7 @@ TEST_F(SharedMemoryTest, AFolderThatIsNotThereIsTold) {
 }
 
 TEST_F(SharedMemoryTest, LeavesNoProbeBehind) {
-  EXPECT_TRUE(check_shared_memory(with_room(folder_, 1), 1));
+  EXPECT_TRUE(check_shared_memory(with_room(folder_.path(), 1), 1));
   EXPECT_TRUE(files().empty());
 }
 
@@ -82,7 +79,7 @@ TEST_F(SharedMemoryTest, WhatNobodyLocksIsRemoved) {
                            "fastrtps_port7410_el", "sem.fastrtps_port7410_mutex"}) {
     touch(name);
   }
-  EXPECT_EQ(clean_shared_memory(folder_), 5);
+  EXPECT_EQ(clean_shared_memory(folder_.path()), 5);
   EXPECT_TRUE(files().empty());
 }
 
@@ -92,12 +89,12 @@ TEST_F(SharedMemoryTest, WhatIsLeftOverIsNamedAndStaysUntilItIsRemoved) {
     touch(name);
   }
   const int lock = open((folder_ / "fastrtps_00cc_el").c_str(), O_RDWR | O_CLOEXEC);
-  EXPECT_EQ(left_in_shared_memory(folder_),
+  EXPECT_EQ(left_in_shared_memory(folder_.path()),
             (std::vector<fs::path>{folder_ / "fastrtps_00aa", folder_ / "fastrtps_00aa_el"}));
   EXPECT_EQ(files().size(), 5U);
   close(lock);
-  EXPECT_EQ(clean_shared_memory(folder_), 4);
-  EXPECT_TRUE(left_in_shared_memory(folder_).empty());
+  EXPECT_EQ(clean_shared_memory(folder_.path()), 4);
+  EXPECT_TRUE(left_in_shared_memory(folder_.path()).empty());
 }
 
 TEST_F(SharedMemoryTest, WhatSomebodyLocksStays) {
@@ -109,13 +106,13 @@ TEST_F(SharedMemoryTest, WhatSomebodyLocksStays) {
     locks.push_back(open((folder_ / name).c_str(), O_RDWR | O_CLOEXEC));
     ASSERT_EQ(flock(locks.back(), LOCK_SH), 0);
   }
-  EXPECT_EQ(clean_shared_memory(folder_), 0);
+  EXPECT_EQ(clean_shared_memory(folder_.path()), 0);
   EXPECT_EQ(files(), names);
   for (const int lock : locks) close(lock);
 }
 
 TEST_F(SharedMemoryTest, APortReachesWhoeverElseListensThere) {
-  const auto checked = [&] { return check_shared_memory_port(folder_, 7411); };
+  const auto checked = [&] { return check_shared_memory_port(folder_.path(), 7411); };
   const std::string file = (folder_ / "fastrtps_port7411").string();
   EXPECT_EQ(checked().error().text, file + ": No such file or directory");
   touch("fastrtps_port7411");
@@ -143,25 +140,25 @@ TEST_F(SharedMemoryTest, WhatIsMappedStays) {
   const int file = open((folder_ / "fastrtps_port7412").c_str(), O_RDWR | O_CLOEXEC);
   void* mapped = mmap(nullptr, 1, PROT_READ, MAP_SHARED, file, 0);
   ASSERT_NE(mapped, MAP_FAILED);
-  EXPECT_EQ(clean_shared_memory(folder_), 0);
+  EXPECT_EQ(clean_shared_memory(folder_.path()), 0);
   munmap(mapped, 1);
   close(file);
-  EXPECT_EQ(clean_shared_memory(folder_), 1);
+  EXPECT_EQ(clean_shared_memory(folder_.path()), 1);
 }
 
 TEST_F(SharedMemoryTest, WhatSomebodyIsAboutToLockOrMapStays) {
   touch("fastrtps_00cc");
   touch("fastrtps_00cc_el");
   const int lock = open((folder_ / "fastrtps_00cc_el").c_str(), O_RDWR | O_CLOEXEC);
-  EXPECT_EQ(clean_shared_memory(folder_), 0);
+  EXPECT_EQ(clean_shared_memory(folder_.path()), 0);
   close(lock);
-  EXPECT_EQ(clean_shared_memory(folder_), 2);
+  EXPECT_EQ(clean_shared_memory(folder_.path()), 2);
 }
 
 TEST_F(SharedMemoryTest, WhatIsOfOtherProgramsStays) {
   touch("other_program");
   touch("sem.other");
-  EXPECT_EQ(clean_shared_memory(folder_), 0);
+  EXPECT_EQ(clean_shared_memory(folder_.path()), 0);
   EXPECT_EQ(files().size(), 2U);
 }
 
@@ -172,9 +169,9 @@ TEST_F(SharedMemoryTest, DataSharingGoesWithItsProcess) {
   touch(data_sharing_of(ended));
   touch(data_sharing_of(getpid()));
   touch("fast_datasharing_nonsense");
-  EXPECT_EQ(clean_shared_memory(folder_), 0);
+  EXPECT_EQ(clean_shared_memory(folder_.path()), 0);
   waitpid(ended, nullptr, 0);
-  EXPECT_EQ(clean_shared_memory(folder_), 1);
+  EXPECT_EQ(clean_shared_memory(folder_.path()), 1);
   EXPECT_EQ(files(),
             (std::set<std::string>{data_sharing_of(getpid()), "fast_datasharing_nonsense"}));
 }

@@ -4,14 +4,13 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 
 #include "armature/config/document.hpp"
 #include "armature/robot/files/urdf_file_test.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/model/test_robots.hpp"
+#include "armature/values/file_content.hpp"
 
 namespace armature {
 namespace {
@@ -267,8 +266,7 @@ TEST(ShippedUrdfFiles, HaveNoTwoHyphensInAComment) {
   for (const auto& file :
        std::filesystem::directory_iterator{ARMATURE_SOURCE_DIR "/configs/robots"}) {
     if (file.path().extension() != ".urdf") continue;
-    std::ifstream stream{file.path()};
-    const std::string text{std::istreambuf_iterator<char>{stream}, {}};
+    const std::string text = content_of(file.path());
     for (std::size_t begin = text.find("<!--"); begin != std::string::npos;
          begin = text.find("<!--", begin)) {
       begin += 4;

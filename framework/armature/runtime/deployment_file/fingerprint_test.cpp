@@ -3,12 +3,12 @@
 #include "armature/runtime/deployment_file/fingerprint.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
 #include "armature/config/document.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature {
 namespace {
@@ -18,14 +18,12 @@ namespace fs = std::filesystem;
 class Fingerprint : public testing::Test {
  protected:
   Fingerprint() {
-    fs::create_directories(folder_);
     write("robot.yaml", "robot: {urdf: arm.urdf, tool: {calibrated: tool.yaml}}\n");
     write("tool.yaml", "length_m: 0.1\n");
     write("arm.urdf", "<robot/>");
     write("photo.png", "a picture");
     write("deployment.yaml", "name: lamp  # of the clinic\nphoto: photo.png\n");
   }
-  ~Fingerprint() override { fs::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream{folder_ / name} << text;
@@ -37,8 +35,7 @@ class Fingerprint : public testing::Test {
   }
 
  private:
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-fingerprint-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(Fingerprint, IsASha256) {

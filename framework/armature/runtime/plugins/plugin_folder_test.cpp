@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature {
 namespace {
@@ -24,16 +25,14 @@ class PluginFolder : public testing::Test {
  protected:
   PluginFolder() {
     fs::create_directories(folder_);
-    set_mode(above_, 0755);
+    set_mode(above_.path(), 0755);
     set_mode(folder_, 0755);
     std::ofstream{folder_ / "text.so"} << "no library";
   }
-  ~PluginFolder() override { fs::remove_all(above_); }
 
   static void set_mode(const fs::path& folder, mode_t mode) { chmod(folder.c_str(), mode); }
 
-  const fs::path above_ =
-      fs::temp_directory_path() / ("armature-plugin-folder-" + std::to_string(getpid()));
+  const TemporaryFolder above_;
   const fs::path folder_ = above_ / "plugins";
 };
 
@@ -50,10 +49,10 @@ TEST_F(PluginFolder, ThatOthersMayWriteIsOne) {
 }
 
 TEST_F(PluginFolder, ThatOthersMayReplaceIsOne) {
-  set_mode(above_, 0777);
+  set_mode(above_.path(), 0777);
   EXPECT_EQ(danger_of_place(folder_),
-            "others may write '" + above_.string() + "' above it (mode 0777)");
-  set_mode(above_, 01777);  // sticky, as /tmp is
+            "others may write '" + above_.path().string() + "' above it (mode 0777)");
+  set_mode(above_.path(), 01777);  // sticky, as /tmp is
   EXPECT_EQ(danger_of_place(folder_), std::nullopt);
 }
 

@@ -2,11 +2,11 @@
 #include "armature/runtime/plugins/processor_level.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature {
 namespace {
@@ -15,15 +15,12 @@ namespace fs = std::filesystem;
 
 class ProcessorLevel : public testing::Test {
  protected:
-  ProcessorLevel() { fs::create_directories(folder_); }
-  ~ProcessorLevel() override { fs::remove_all(folder_); }
   fs::path library(const std::string& name) {
     fs::create_directories((folder_ / name).parent_path());
     std::ofstream{folder_ / name} << "code";
     return folder_ / name;
   }
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-processor-level-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(ProcessorLevel, ALibraryOfTheHighestLevelThatTheProcessorHasIsTaken) {

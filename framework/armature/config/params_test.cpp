@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <numbers>
-#include <stdexcept>
 
 #include "armature/config/document.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -121,12 +121,9 @@ TEST(Parameters, FallBackToTheTable) {
 TEST(Parameters, ThatContradictEachOtherAreRefusedWhereTheFirstOfThemIsWritten) {
   Problems problems;
   const auto refusal = [](const Params& params) -> std::string {
-    try {
+    return test::refusal_of([&] {
       params.refuse({"rate_hz", "tries"}, "'rate_hz' is below 'tries'");
-    } catch (const config::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    });
   };
   EXPECT_EQ(refusal(read("{seed: 7, tries: 20}", problems)),
             "deployments/lamp.yaml:1:18: 'rate_hz' is below 'tries'");
@@ -206,14 +203,7 @@ TEST(Parameters, ThatAreNotGivenAreMissedAtTheirPlace) {
 TEST(Parameters, ThatThePluginDoesNotDeclareAreItsDefect) {
   Problems problems;
   const Params params = read("seed: 7", problems);
-  const auto defect = [](auto ask) -> std::string {
-    try {
-      ask();
-    } catch (const std::logic_error& error) {
-      return error.what();
-    }
-    return "";
-  };
+  const auto defect = [](auto ask) -> std::string { return test::refusal_of([&] { ask(); }); };
   EXPECT_EQ(
       defect([&] { params.number("rate"); }),
       "'sim/scene' asks for the parameter 'rate', which its plugin.yaml does not declare; did "
@@ -232,12 +222,7 @@ std::string order_problem(const std::string& order, const std::string& given) {
   const auto specs = read_param_specs(table, problems);
   const Node params = config::parse_text(given, "f");
   Params::read(specs, &params, "task/x", problems);
-  try {
-    problems.throw_if_any();
-  } catch (const config::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal_of([&] { problems.throw_if_any(); });
 }
 
 TEST(Parameters, MayBeComparedWithOneAnother) {

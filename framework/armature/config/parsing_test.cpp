@@ -4,18 +4,14 @@
 #include <cstdlib>
 
 #include "armature/config/document.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature::config {
 namespace {
 
 /// All problems of a text called f.yaml, one a line; empty: it is read.
 std::string problems_of(const std::string& text) {
-  try {
-    parse_text(text, "f.yaml");
-    return "";
-  } catch (const ConfigError& error) {
-    return error.what();
-  }
+  return test::refusal_of([&] { parse_text(text, "f.yaml"); });
 }
 
 TEST(Parsing, KeepsThePlaceOfEveryKeyAndValue) {

@@ -5,9 +5,9 @@
 
 #include <limits>
 #include <numbers>
-#include <stdexcept>
 
 #include "armature/config/document.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature::config {
 namespace {
@@ -198,12 +198,7 @@ TEST(Tables, AreWhatReadingAsksFor) {
   const auto defect = [&](auto ask) -> std::string {
     Problems problems;
     MapReader map{node, "slide", slide(), problems};
-    try {
-      ask(map);
-    } catch (const std::logic_error& error) {
-      return error.what();
-    }
-    return "none";
+    return test::refusal_of([&] { ask(map); });
   };
   EXPECT_EQ(defect([](MapReader& map) { map.number("tilt"); }),
             "the table of slide has no key 'tilt'");

@@ -11,7 +11,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/recording/recorded_processes.hpp"
 #include "armature/recording/recording_test.hpp"
-#include "armature/runtime/plugins/setup_error.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature::camera::images {
 namespace {
@@ -50,12 +50,7 @@ class RecordedPicturesTest : public testing::Test {
     writer.write(channel, ++sequence_, at + seconds(9), at, cdr);
   }
   std::string refusal(const std::string& left, const std::string& right) const {
-    try {
-      RecordedPictures{file_.path(), left, right};
-    } catch (const SetupError& error) {
-      return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { RecordedPictures{file_.path(), left, right}; });
   }
 
   RecordingFile file_{"pictures"};

@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 
-#include "armature/runtime/plugins/setup_error.hpp"
 #include "picture_files_test.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature::pictures {
 namespace {
@@ -32,12 +32,7 @@ class FolderPicturesTest : public testing::Test {
     return all;
   }
   static std::string refusal(const FolderPictures::Options& options) {
-    try {
-      FolderPictures{options};
-    } catch (const SetupError& error) {
-      return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { FolderPictures{options}; });
   }
   PictureFolder files_;
 };

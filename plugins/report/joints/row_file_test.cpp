@@ -4,12 +4,13 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
-#include <iterator>
-#include <stdexcept>
+
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature::report::joints {
 namespace {
@@ -21,24 +22,11 @@ using testing::HasSubstr;
 
 class ReportRowFile : public testing::Test {
  protected:
-  ReportRowFile() { fs::create_directories(folder_); }
-  ~ReportRowFile() override { fs::remove_all(folder_); }
-
-  static std::string text_in(const fs::path& file) {
-    std::ifstream in{file};
-    return {std::istreambuf_iterator<char>{in}, {}};
-  }
   std::string refusal() const {
-    try {
-      RowFile{file_};
-      return "";
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
+    return test::refusal_of([&] { RowFile{file_}; });
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-rows-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
   const fs::path file_ = folder_ / "arm_joints.csv";
 };
 
@@ -64,7 +52,7 @@ TEST_F(ReportRowFile, WhatWasAppendedIsThereAtOnceAndItsOwnersOnly) {
   RowFile rows{file_};
   rows.append("a,b\r\n");
   rows.append("1,2\r\n");
-  EXPECT_EQ(text_in(file_), "a,b\r\n1,2\r\n") << "before anything is closed";
+  EXPECT_EQ(content_of(file_), "a,b\r\n1,2\r\n") << "before anything is closed";
   struct stat status {};
   ASSERT_EQ(stat(file_.c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777u, 0600u);
@@ -74,7 +62,7 @@ TEST_F(ReportRowFile, AnOlderFileGoesWithItsPermissions) {
   std::ofstream{file_} << "of an older run";
   fs::permissions(file_, fs::perms::all);
   RowFile rows{file_};
-  EXPECT_EQ(text_in(file_), "");
+  EXPECT_EQ(content_of(file_), "");
   EXPECT_EQ(fs::status(file_).permissions(), fs::perms::owner_read | fs::perms::owner_write);
 }
 
@@ -83,9 +71,9 @@ TEST_F(ReportRowFile, ALinkIsReplacedAndNotFollowed) {
   std::ofstream{other} << "mine";
   fs::create_symlink(other, file_);
   RowFile{file_}.append("1\r\n");
-  EXPECT_EQ(text_in(other), "mine");
+  EXPECT_EQ(content_of(other), "mine");
   EXPECT_FALSE(fs::is_symlink(file_));
-  EXPECT_EQ(text_in(file_), "1\r\n");
+  EXPECT_EQ(content_of(file_), "1\r\n");
 }
 
 TEST_F(ReportRowFile, WhatIsNoFileIsLeftAloneAndNamed) {
@@ -98,7 +86,7 @@ TEST_F(ReportRowFile, WhatIsNoFileIsLeftAloneAndNamed) {
 }
 
 TEST_F(ReportRowFile, AFolderThatIsNotThereIsNamed) {
-  fs::remove_all(folder_);
+  fs::remove_all(folder_.path());
   EXPECT_THAT(refusal(), AllOf(HasSubstr(file_.string()), EndsWith("No such file or directory")));
 }
 
@@ -111,7 +99,7 @@ TEST_F(ReportRowFile, AFullDiskLeavesWholeLinesAndIsNamedWithTheFile) {
     EXPECT_EQ(rows.trouble(), "cannot write '" + file_.string() + "': File too large");
   }
   rows.append("3,4\r\n");
-  EXPECT_EQ(text_in(file_), "a,b\r\n") << "nothing after the line that is missing";
+  EXPECT_EQ(content_of(file_), "a,b\r\n") << "nothing after the line that is missing";
 }
 
 }  // namespace

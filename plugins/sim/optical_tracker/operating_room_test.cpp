@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "armature/kinds/declared_params.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature::sim::optical_tracker {
 namespace {
@@ -47,12 +48,7 @@ TEST(OperatingRoom, JawAndTrackerStandInTheBaseFrame) {
 
 TEST(OperatingRoom, ListsThatDoNotComeOutAreRefused) {
   const auto refusal = [](const std::string& params) -> std::string {
-    try {
-      room(params);
-    } catch (const config::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { room(params); });
   };
   EXPECT_EQ(refusal("sites_mm: [1, 2]"),
             "given:1:12: 'sites_mm' has 2 numbers; three for each of at least one site are needed");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "armature/config/document.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -24,12 +25,7 @@ std::string struct_of(const std::string& params) {
 }
 
 std::string refusal(const std::string& params) {
-  try {
-    header_of(params);
-  } catch (const config::ConfigError& error) {
-    return error.what();
-  }
-  return "none";
+  return test::refusal_of([&] { header_of(params); });
 }
 
 TEST(TheStructOfParameters, HasTypedMembersInSiUnitsWithDocAndDefault) {

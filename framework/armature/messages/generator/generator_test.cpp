@@ -6,7 +6,6 @@
 //  4. two definitions of one type are refused in the process, and by their symbols
 //  5. what is not supported is refused by name, with file and line
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstring>
 #include <fstream>
@@ -16,7 +15,9 @@
 #include "armature/messages/generator/message_code.hpp"
 #include "armature/messages/message_library.hpp"
 #include "armature/messages/test_messages.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "everything_msgs/everything.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -142,14 +143,11 @@ TEST(Generator, AnotherDefinitionOfATypeIsRefusedInTheProcess) {
       "module everything_msgs { module msg { module dds_ { @final struct Part_ { long x_; }; }; }; "
       "};"};
   EXPECT_FALSE(other.make_known({}));
-  try {
-    other.define<everything_msgs::msg::Part>("everything_msgs::msg::dds_::Part_");
-    FAIL();
-  } catch (const std::logic_error& error) {
-    EXPECT_STREQ(error.what(),
-                 "everything_msgs::msg::dds_::Part_ cannot be used: message library:1: "
-                 "everything_msgs/Part is known with other members");
-  }
+  EXPECT_EQ(test::refusal_of([&] {
+              other.define<everything_msgs::msg::Part>("everything_msgs::msg::dds_::Part_");
+            }),
+            "everything_msgs::msg::dds_::Part_ cannot be used: message library:1: "
+            "everything_msgs/Part is known with other members");
 }
 
 TEST(Generator, TheSameDefinitionAgainIsTheSameType) {
@@ -162,7 +160,6 @@ TEST(Generator, TheSameDefinitionAgainIsTheSameType) {
 class Files : public testing::Test {
  protected:
   Files() { fs::create_directories(folder_ / "other"); }
-  ~Files() override { fs::remove_all(folder_); }
 
   void write(const std::string& file, const std::string& text) const {
     std::ofstream{folder_ / file} << text;
@@ -173,8 +170,8 @@ class Files : public testing::Test {
     IdlFiles files{"mine", {{folder_ / "other", "others"}}};
     const auto read = files.read(folder_ / "a.idl");
     std::string why = read ? "" : read.error().text;
-    for (std::size_t at; (at = why.find(folder_.string() + "/")) != std::string::npos;) {
-      why.erase(at, folder_.string().size() + 1);
+    for (std::size_t at; (at = why.find(folder_.path().string() + "/")) != std::string::npos;) {
+      why.erase(at, folder_.path().string().size() + 1);
     }
     return why;
   }
@@ -182,8 +179,7 @@ class Files : public testing::Test {
     return reason("module p { module msg { module dds_ {\n" + text + "\n}; }; };");
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-generator-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(Files, IncludesAreReadFirstAndNamedByTheirHeaders) {
@@ -212,7 +208,7 @@ TEST_F(Files, IncludesAreReadFirstAndNamedByTheirHeaders) {
 
 TEST_F(Files, WhatIsMissingIsNamedWithWhereItWasLookedFor) {
   EXPECT_EQ(reason("\n#include \"none.idl\"\n"),
-            "a.idl:2: no 'none.idl' in " + folder_.string() + ", other");
+            "a.idl:2: no 'none.idl' in " + folder_.path().string() + ", other");
 }
 
 TEST_F(Files, TypesOutsideTheModulesOfRosAreRefused) {

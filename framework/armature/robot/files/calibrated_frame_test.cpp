@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A frame of a robot file that stands where a calibration found it: `calibrated: tool.yaml`.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,8 @@
 #include "armature/config/document.hpp"
 #include "armature/robot/geometry/rotation.hpp"
 #include "armature/robot/model/robot_model.hpp"
+#include "armature/values/temporary_folder.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -32,7 +33,6 @@ class CalibratedFrameOfARobot : public ::testing::Test {
           "  quaternion_xyzw: [0, 0, 0.6, 0.8]\n"
           "base_T_tracker: {translation_m: [1.5, 0, 1], quaternion_xyzw: [1, 0, 0, 0]}\n");
   }
-  ~CalibratedFrameOfARobot() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream{folder_ / name} << text;
@@ -49,16 +49,11 @@ class CalibratedFrameOfARobot : public ::testing::Test {
   }
   /// Without the folder.
   std::vector<std::string> problems_with(const std::string& frames) const {
-    std::vector<std::string> texts;
-    try {
-      with(frames);
-    } catch (const config::ConfigError& error) {
-      for (const auto& problem : error.problems()) {
-        std::string text = problem.text();
-        for (std::size_t at; (at = text.find(folder_.string() + "/")) != std::string::npos;) {
-          text.erase(at, folder_.string().size() + 1);
-        }
-        texts.push_back(text);
+    std::vector<std::string> texts = test::problems_of([&] { with(frames); });
+    const std::string folder = folder_.path().string() + "/";
+    for (std::string& text : texts) {
+      for (std::size_t at; (at = text.find(folder)) != std::string::npos;) {
+        text.erase(at, folder.size());
       }
     }
     return texts;
@@ -67,8 +62,7 @@ class CalibratedFrameOfARobot : public ::testing::Test {
     return robot.frame(*robot.find_frame(name)).parent_T_frame;
   }
 
-  const std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("calibrated_frame_" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(CalibratedFrameOfARobot, StandsWhereThePivotFoundItAndIsTurnedAsTheRobotFileSays) {

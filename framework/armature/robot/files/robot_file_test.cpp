@@ -7,6 +7,7 @@
 #include "armature/robot/files/stereo_rig.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/model/test_robots.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -20,13 +21,7 @@ RobotModel read_good(const std::string& text) {
 }
 
 std::vector<std::string> problems_in(const std::string& text) {
-  std::vector<std::string> texts;
-  try {
-    read_robot_model(config::parse_text(text, "arm.yaml"));
-  } catch (const config::ConfigError& error) {
-    for (const auto& problem : error.problems()) texts.push_back(problem.text());
-  }
-  return texts;
+  return test::problems_of([&] { read_robot_model(config::parse_text(text, "arm.yaml")); });
 }
 
 /// Two joints, the second one as given, and what follows the joints.

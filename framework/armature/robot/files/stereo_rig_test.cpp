@@ -6,6 +6,7 @@
 #include <random>
 
 #include "armature/config/document.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -19,13 +20,7 @@ StereoRig rig(const std::string& name) {
 }
 
 std::vector<std::string> problems_of(const std::string& text) {
-  std::vector<std::string> texts;
-  try {
-    read_stereo_rig(config::parse_text(text, "rig.yaml"));
-  } catch (const config::ConfigError& error) {
-    for (const auto& problem : error.problems()) texts.push_back(problem.text());
-  }
-  return texts;
+  return test::problems_of([&] { read_stereo_rig(config::parse_text(text, "rig.yaml")); });
 }
 
 TEST(StereoRig, DefaultSeesSeventyDegreesAcrossItsImage) {

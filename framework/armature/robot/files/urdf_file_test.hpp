@@ -2,15 +2,15 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <string>
 #include <vector>
 
-#include "armature/config/problems.hpp"
 #include "armature/robot/files/urdf_robot.hpp"
+#include "armature/values/temporary_folder.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature::testing {
 
@@ -19,9 +19,6 @@ namespace fs = std::filesystem;
 /// A folder with arm.urdf, and what is said of it; its own name does not matter.
 class UrdfFile : public ::testing::Test {
  protected:
-  UrdfFile() { fs::create_directories(folder_); }
-  ~UrdfFile() override { fs::remove_all(folder_); }
-
   void write(const std::string& name, const std::string& text) const {
     std::ofstream{folder_ / name} << text;
   }
@@ -44,14 +41,9 @@ class UrdfFile : public ::testing::Test {
   }
   template <class Load>
   std::vector<std::string> problems_when(Load load) const {
-    std::vector<std::string> texts;
-    try {
-      load();
-    } catch (const config::ConfigError& error) {
-      for (const auto& problem : error.problems()) texts.push_back(problem.text());
-    }
+    std::vector<std::string> texts = test::problems_of(load);
     for (std::string& text : texts) {
-      const std::string folder = folder_.string() + "/";
+      const std::string folder = folder_.path().string() + "/";
       for (auto at = text.find(folder); at != text.npos; at = text.find(folder))
         text.erase(at, folder.size());
     }
@@ -62,9 +54,7 @@ class UrdfFile : public ::testing::Test {
     return load_robot_model(folder_ / "arm.yaml");
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-urdf-" + std::to_string(getpid()) + "-" +
-                                   ::testing::UnitTest::GetInstance()->current_test_info()->name());
+  const TemporaryFolder folder_;
 };
 
 }  // namespace armature::testing

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "armature/runtime/testing/component_harness.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -146,14 +147,9 @@ TEST_F(DriverThreadTest, WhatItThrowsIsTheComponentsFault) {
 }
 
 TEST_F(DriverThreadTest, IsRefusedToAPluginThatPromisesToBeTheSameEveryTime) {
-  try {
-    reader(std::string{kReaderManifest} + "}");
-    FAIL() << "it was made";
-  } catch (const std::logic_error& refused) {
-    EXPECT_STREQ(refused.what(),
-                 "plugin 'test/reader' has a driver thread, so no two runs of it are alike; its "
-                 "plugin.yaml must say 'pure: false'");
-  }
+  EXPECT_EQ(test::refusal_of([&] { reader(std::string{kReaderManifest} + "}"); }),
+            "plugin 'test/reader' has a driver thread, so no two runs of it are alike; its "
+            "plugin.yaml must say 'pure: false'");
 }
 
 TEST(DriverThread, ASleepEndsAtOnceWhenTheRunDoes) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/refusal.hpp"
+
 namespace armature {
 namespace {
 
@@ -71,15 +73,12 @@ TEST(ComponentUnits, AThreadThatTheFileDescribesIsNotMadeAgain) {
 }
 
 TEST(ComponentUnits, AUnitThatIsNotThereIsAProblem) {
-  try {
-    manifest_of(
-        "armature_plugin: 1\nid: mine\nkind: component\nunits: {planner: {}}\n"
-        "in: {goal: {type: std_msgs/Bool, units: [planer]}}\n");
-    FAIL();
-  } catch (const config::ConfigError& error) {
-    EXPECT_STREQ(error.what(),
-                 "plugin.yaml:5:41: 'planer' is no unit of the component; did you mean 'planner'?");
-  }
+  EXPECT_EQ(test::refusal_of([&] {
+              manifest_of(
+                  "armature_plugin: 1\nid: mine\nkind: component\nunits: {planner: {}}\n"
+                  "in: {goal: {type: std_msgs/Bool, units: [planer]}}\n");
+            }),
+            "plugin.yaml:5:41: 'planer' is no unit of the component; did you mean 'planner'?");
 }
 
 }  // namespace

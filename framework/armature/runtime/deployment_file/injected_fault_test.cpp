@@ -5,8 +5,8 @@
 
 #include <csignal>
 
-#include "armature/config/problems.hpp"
 #include "armature/runtime/testing/fake_setup.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -22,12 +22,7 @@ class InjectedFaultTest : public testing::Test {
                               {.name = "monitor", .manifest = &monitor_}};
   }
   std::string refusal(std::string_view text) const {
-    try {
-      InjectedFault::read(text, deployment_);
-    } catch (const config::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { InjectedFault::read(text, deployment_); });
   }
 
   PluginManifest driver_, monitor_;

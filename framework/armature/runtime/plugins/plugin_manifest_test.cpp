@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/refusal.hpp"
+
 namespace armature {
 namespace {
 
@@ -15,14 +17,9 @@ PluginManifest parse(const std::string& rest) {
   return manifest;
 }
 
-/// What is wrong with a plugin.yaml that goes on like this.
+/// What is wrong with a plugin.yaml that goes on like this; "": nothing.
 std::string problem(const std::string& rest) {
-  try {
-    parse(rest);
-  } catch (const config::ConfigError& error) {
-    return error.what();
-  }
-  return "nothing";
+  return test::refusal_of([&] { parse(rest); });
 }
 
 TEST(PluginManifest, ReadsWhatAPluginNeedsOffersAndMeasures) {
@@ -51,12 +48,7 @@ TEST(PluginManifest, IsRefusedInAnotherFormatAndWithoutOne) {
   const auto said = [](const std::string& head) -> std::string {
     config::Problems problems;
     parse_manifest(head + "id: path/mine\nkind: path\n", "plugin.yaml", problems);
-    try {
-      problems.throw_if_any();
-    } catch (const config::ConfigError& error) {
-      return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { problems.throw_if_any(); });
   };
   EXPECT_EQ(said("armature_plugin: 1\n"), "");
   for (const std::string format : {"2", "-7"}) {
@@ -116,15 +108,15 @@ TEST(PluginManifest, AListWhereAMapBelongsIsAProblem) {
             "plugin.yaml:4:11: 'measures' must be a map, not 'length_m'");
   EXPECT_EQ(problem("provides: {time_law: yes}\n"),
             "plugin.yaml:4:22: 'time_law' must be a map, not 'yes'");
-  EXPECT_EQ(problem("requires:\n"), "nothing");
+  EXPECT_EQ(problem("requires:\n"), "");
 }
 
 TEST(PluginManifest, APortIsOfADocumentThatThePluginUses) {
   const std::string port = "in: {js: {type: sensor_msgs/JointState, of: robot}}\n";
   EXPECT_EQ(problem(port),
             "plugin.yaml:4:6: port 'js' is of a robot, and 'uses' and 'may_use' name none");
-  EXPECT_EQ(problem("uses: [robot]\n" + port), "nothing");
-  EXPECT_EQ(problem("may_use: [robot]\n" + port), "nothing");
+  EXPECT_EQ(problem("uses: [robot]\n" + port), "");
+  EXPECT_EQ(problem("may_use: [robot]\n" + port), "");
 }
 
 TEST(PluginManifest, AStepMayTakeATimeThatIsPositive) {

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "armature/config/document.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -37,12 +38,7 @@ class ArmOwnership : public testing::Test {
 
   static std::string refusal(const DeploymentConfig& deployment, int domain = 1,
                              const std::string& process = "main") {
-    try {
-      own_arms(deployment, process, domain);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { own_arms(deployment, process, domain); });
   }
 
   static PluginManifest plugin(const std::string& driver) {

@@ -5,7 +5,9 @@
 #include <unistd.h>
 
 #include <fstream>
-#include <stdexcept>
+
+#include "armature/values/temporary_folder.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -14,20 +16,11 @@ namespace fs = std::filesystem;
 
 class OutputFolder : public testing::Test {
  protected:
-  OutputFolder() { fs::create_directories(root_); }
-  ~OutputFolder() override { fs::remove_all(root_); }
-
   static std::string refusal(const fs::path& folder) {
-    try {
-      prepare_output_folder(folder);
-    } catch (const std::runtime_error& error) {
-      return error.what();
-    }
-    return "";
+    return test::refusal_of([&] { prepare_output_folder(folder); });
   }
 
-  const fs::path root_ =
-      fs::temp_directory_path() / ("armature-output-folder-" + std::to_string(getpid()));
+  const TemporaryFolder root_;
 };
 
 TEST_F(OutputFolder, IsMadeWithWhatIsAboveItAndStaysEmpty) {

@@ -9,7 +9,10 @@
 #include <csignal>
 #include <fstream>
 #include <iterator>
-#include <stdexcept>
+
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -34,18 +37,9 @@ class LittleRoom {
   void (*handler_)(int);
 };
 
-std::string content_of(const fs::path& path) {
-  std::ifstream stream{path};
-  return {std::istreambuf_iterator<char>{stream}, {}};
-}
-
 class WriteAtomically : public testing::Test {
  protected:
-  WriteAtomically() { fs::create_directories(folder_); }
-  ~WriteAtomically() override { fs::remove_all(folder_); }
-
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-write-atomically-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
   const fs::path file_ = folder_ / "report.json";
 };
 
@@ -101,14 +95,10 @@ TEST_F(WriteAtomically, IsNotHinderedByWhatARunBeforeAPowerCutHasLeft) {
 TEST_F(WriteAtomically, OnAFullDiskTellsWhyAndLeavesTheFolderAsItWas) {
   write_atomically(file_, "older");
   const LittleRoom room{1000};
-  try {
-    write_atomically(file_, std::string(2000, 'x'));
-    FAIL() << "2000 bytes where there is room for 1000";
-  } catch (const std::runtime_error& error) {
-    EXPECT_EQ(error.what(), "cannot write '" + file_.string() + "': File too large");
-  }
+  EXPECT_EQ(test::refusal_of([&] { write_atomically(file_, std::string(2000, 'x')); }),
+            "cannot write '" + file_.string() + "': File too large");
   EXPECT_EQ(content_of(file_), "older");
-  EXPECT_EQ(std::distance(fs::directory_iterator{folder_}, {}), 1) << "half a file is left";
+  EXPECT_EQ(std::distance(fs::directory_iterator{folder_.path()}, {}), 1) << "half a file is left";
 }
 
 }  // namespace

@@ -6,31 +6,23 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <string>
+
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature::test {
 
 /// A named pipe in the place of an input device.
 class EventPipe {
  public:
-  EventPipe() {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / "armature-pendant-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("cannot make " + pattern);
-    folder_ = pattern;
-    plug_in();
-  }
-  ~EventPipe() {
-    unplug();
-    std::filesystem::remove_all(folder_);
-  }
+  EventPipe() { plug_in(); }
+  ~EventPipe() { unplug(); }
   EventPipe(const EventPipe&) = delete;
   EventPipe& operator=(const EventPipe&) = delete;
 
-  std::string path() const { return folder_ + "/events"; }
+  std::string path() const { return folder_ / "events"; }
   void plug_in() {
     if (mkfifo(path().c_str(), 0600) != 0) throw std::runtime_error("cannot make " + path());
     file_ = open(path().c_str(), O_RDWR | O_CLOEXEC);
@@ -52,7 +44,7 @@ class EventPipe {
   void release(int button) { send(EV_KEY, button, 0); }
 
  private:
-  std::string folder_;
+  const TemporaryFolder folder_;
   int file_ = -1;
 };
 

@@ -2,19 +2,20 @@
 #include "error_table.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <fstream>
-#include <iterator>
+#include <filesystem>
 #include <string>
 #include <vector>
+
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature::report::lamp_alignment {
 namespace {
 
 TEST(ErrorTable, HasARowForEveryErrorAndLeavesEmptyWhatIsNotKnown) {
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("error_table_" + std::to_string(::getpid()) + ".csv");
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "errors.csv";
   write_error_table(
       std::vector<LampError>{{.time_s = 0.02, .distance_m = 0.75, .direction_error_rad = 0.5},
                              {.time_s = 0.04,
@@ -24,11 +25,8 @@ TEST(ErrorTable, HasARowForEveryErrorAndLeavesEmptyWhatIsNotKnown) {
                               .mouth_error_m = 0.0008,
                               .normal_error_rad = 0.001}},
       file);
-  std::ifstream stream{file};
-  const std::string table{std::istreambuf_iterator<char>{stream}, {}};
-  std::filesystem::remove(file);
   EXPECT_EQ(
-      table,
+      content_of(file),
       "time_s,distance_m,distance_error_m,direction_error_rad,mouth_error_m,normal_error_rad\n"
       "0.020000,0.75,,0.5,,\n"
       "0.040000,0.505,0.005,0.25,0.0008,0.001\n");

@@ -5,15 +5,14 @@
 
 #include <opencv2/imgcodecs.hpp>
 
+#include "armature/values/temporary_folder.hpp"
+
 namespace armature::report::lamp_alignment {
 namespace {
 
 class ReportPicturesTest : public testing::Test {
  protected:
-  void SetUp() override { std::filesystem::create_directories(folder_); }
-  void TearDown() override { std::filesystem::remove_all(folder_); }
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("report_pictures_" + std::to_string(::getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(ReportPicturesTest, TheCameraPictureShowsLandmarksInGreen) {

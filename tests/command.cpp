@@ -10,22 +10,16 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <stdexcept>
 #include <thread>
 
+#include "armature/values/file_content.hpp"
 #include "armature/values/sanitizer.hpp"
 
 namespace armature::test {
 namespace {
 
 using std::chrono::steady_clock;
-
-std::string read_all(const std::string& file) {
-  std::ostringstream text;
-  text << std::ifstream{file}.rdbuf();
-  return text.str();
-}
 
 void redirect(const std::string& file, int flags, int to) {
   const int from = open(file.c_str(), flags, 0600);
@@ -82,13 +76,13 @@ pid_t Command::child() const {
 }
 
 void Command::signal(int number) const { kill(pid_, number); }
-std::string Command::out() const { return read_all(folder_ + "/out"); }
-std::string Command::err() const { return read_all(folder_ + "/err"); }
+std::string Command::out() const { return content_of(folder_ + "/out"); }
+std::string Command::err() const { return content_of(folder_ + "/err"); }
 
 bool Command::wait_for(const std::string& file, const std::string& text,
                        std::chrono::seconds timeout) const {
   for (const auto end = end_of(timeout); steady_clock::now() < end;) {
-    if (read_all(folder_ + file).find(text) != std::string::npos) return true;
+    if (content_of(folder_ + file).find(text) != std::string::npos) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds{20});
   }
   return false;

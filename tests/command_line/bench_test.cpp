@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature bench ik`: solvers side by side, in one run.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/temporary_folder.hpp"
 #include "tests/command_line/lamp_robot.hpp"
 
 namespace armature::test {
@@ -59,24 +59,18 @@ TEST(BenchIk, ComparesWithKdlUnlessTheRobotOrTheUserHasItOtherwise) {
 }
 
 TEST(BenchIk, WritesTheSolvesThePlotAndTheSummary) {
-  const fs::path folder =
-      fs::temp_directory_path() / ("armature-bench-ik-" + std::to_string(getpid()));
-  const auto result = bench({"--plugins", "ik/lamp_geometric", "--near", "--out", folder});
+  const TemporaryFolder folder;
+  const auto result = bench({"--plugins", "ik/lamp_geometric", "--near", "--out", folder.path()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("200 goals of robot 'dental_lamp' (tool), seed 3"));
   for (const char* file : {"solves.csv", "cumulative.svg", "summary.json"}) {
     EXPECT_GT(fs::file_size(folder / file), 0U) << file;
   }
-  fs::remove_all(folder);
 }
 
 class BenchIkFiles : public testing::Test {
  protected:
-  BenchIkFiles() { fs::create_directories(folder_); }
-  ~BenchIkFiles() override { fs::remove_all(folder_); }
-
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-bench-files-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(BenchIkFiles, AFolderThatCannotBeMadeIsToldBeforeAnythingIsMeasured) {
@@ -97,7 +91,7 @@ TEST_F(BenchIkFiles, AFolderThatCannotBeMadeIsToldBeforeAnythingIsMeasured) {
 
 TEST_F(BenchIkFiles, TheTableIsPrintedAlsoWhenAFileCannotBeWritten) {
   fs::create_directories(folder_ / "summary.json");
-  const auto result = bench({"--plugins", "ik/lamp_geometric", "--out", folder_});
+  const auto result = bench({"--plugins", "ik/lamp_geometric", "--out", folder_.path()});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.out, HasSubstr("200 goals of robot 'dental_lamp' (tool), seed 3"));
   EXPECT_EQ(result.err, "armature: cannot write '" + (folder_ / "summary.json").string() +

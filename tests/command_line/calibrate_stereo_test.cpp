@@ -3,15 +3,15 @@
 // files, to a calibration and a rig that a deployment takes.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
 
 #include "armature/robot/geometry/rotation.hpp"
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "calibration_file.hpp"
 #include "rectification.hpp"
 #include "rendered_board_test.hpp"
@@ -61,7 +61,6 @@ class DrawnBoards {
             "right/" + name);
     }
   }
-  ~DrawnBoards() { fs::remove_all(folder_); }
   fs::path path(const std::string& name) const { return folder_ / name; }
 
  private:
@@ -69,8 +68,7 @@ class DrawnBoards {
     cv::imwrite(path(name),
                 cv::Mat(kDown, kAcross, CV_8UC1, const_cast<std::uint8_t*>(pixels.data())));
   }
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-boards-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 CommandResult calibrate(const DrawnBoards& boards, const std::vector<std::string>& more) {
@@ -109,8 +107,7 @@ TEST(CalibrateStereo, FindsTheCamerasWithinWhatItSaysOfItselfAndWritesWhatADeplo
   EXPECT_NEAR(calibration.right_T_left->translation().norm(), right_T_left().translation().norm(),
               4e-3 * told["baseline_sigma_mm"].get<double>());
   EXPECT_EQ(calibration.width, kAcross);
-  std::ifstream svg{cover};
-  EXPECT_TRUE(std::string(std::istreambuf_iterator<char>{svg}, {}).starts_with("<svg "));
+  EXPECT_TRUE(content_of(cover).starts_with("<svg "));
 
   const CommandResult checked =
       run_command({armature(), "check", source_file("configs/dental_lamp_cameras.yaml"), "--set",

@@ -4,17 +4,17 @@
 // what it stands for is known.
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -36,17 +36,8 @@ double distance(const Point& a, const Point& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-std::string text_of(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream{file}.rdbuf();
-  return text.str();
-}
-
 class Calibrate : public testing::Test {
  protected:
-  Calibrate() { fs::create_directories(folder_); }
-  ~Calibrate() override { fs::remove_all(folder_); }
-
   std::string in_folder(const std::string& name) const { return (folder_ / name).string(); }
   std::string write(const std::string& name, const std::string& text) const {
     std::ofstream{folder_ / name} << text;
@@ -68,7 +59,7 @@ class Calibrate : public testing::Test {
     EXPECT_EQ(result.exit_code, exit_code);
     EXPECT_EQ(result.out, "");
     std::string text = result.err;
-    const std::string name = folder_.string() + "/";
+    const std::string name = folder_.path().string() + "/";
     for (std::size_t at; (at = text.find(name)) != std::string::npos;) text.erase(at, name.size());
     return text;
   }
@@ -84,8 +75,7 @@ class Calibrate : public testing::Test {
     return text;
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature_calibrate_" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(Calibrate, FindsTheTrackerAndTheBodyAsWellAsItSays) {
@@ -171,10 +161,11 @@ TEST_F(Calibrate, LeavesAnOlderResultAloneWhenItRefuses) {
   lines.resize(2);
   EXPECT_EQ(refusal({"tool", write("two.jsonl", joined(lines)), "-o", output}, 1),
             "armature: two.jsonl: 2 poses, at least 3 are needed\n");
-  EXPECT_EQ(text_of(output), "the older one\n");
+  EXPECT_EQ(content_of(output), "the older one\n");
   EXPECT_EQ(calibrate({"tool", kTool, "-o", output}).exit_code, 0);
-  EXPECT_EQ(text_of(output).substr(0, 30), "# For a robot file: frames: {t");
-  EXPECT_EQ(std::distance(fs::directory_iterator{folder_}, {}), 2) << "something is left beside it";
+  EXPECT_EQ(content_of(output).substr(0, 30), "# For a robot file: frames: {t");
+  EXPECT_EQ(std::distance(fs::directory_iterator{folder_.path()}, {}), 2)
+      << "something is left beside it";
 }
 
 TEST_F(Calibrate, NamesAPoseThatDoesNotFit) {
@@ -323,17 +314,17 @@ TEST_F(Calibrate, SaysWhichFileCannotBeReadOrWritten) {
             "cannot read 'gone.jsonl': No such file or directory\n");
   EXPECT_EQ(refusal({"tool", kTool, "-o", in_folder("gone/tool.yaml")}, 1),
             "armature: cannot write 'gone/tool.yaml': No such file or directory\n");
-  EXPECT_EQ(refusal({"tool", kTool, "-o", folder_.string()}, 1),
-            "armature: cannot write '" + folder_.string() + "': it is no regular file\n");
+  EXPECT_EQ(refusal({"tool", kTool, "-o", folder_.path().string()}, 1),
+            "armature: cannot write '" + folder_.path().string() + "': it is no regular file\n");
   EXPECT_EQ(refusal({"tool", kTool, "-o", ""}, 1),
             "armature: cannot write '': No such file or directory\n");
 }
 
 TEST_F(Calibrate, NeverWritesOverTheRecording) {
-  const std::string poses = write("mine.jsonl", text_of(kTool));
+  const std::string poses = write("mine.jsonl", content_of(kTool));
   EXPECT_EQ(refusal({"tool", poses, "-o", poses}, 3),
             "armature: -o mine.jsonl: that is the recording; give the result another name\n");
-  EXPECT_EQ(text_of(poses), text_of(kTool));
+  EXPECT_EQ(content_of(poses), content_of(kTool));
 }
 
 TEST_F(Calibrate, ADashIsStandardOutputAndNoFile) {
@@ -359,7 +350,7 @@ TEST_F(Calibrate, WritesWhereALinkPointsAndNeverOverAPipe) {
   fs::create_symlink(output, link);
   EXPECT_EQ(calibrate({"tool", kTool, "-o", link}).exit_code, 0);
   EXPECT_TRUE(fs::is_symlink(link));
-  EXPECT_EQ(text_of(output).substr(0, 30), "# For a robot file: frames: {t");
+  EXPECT_EQ(content_of(output).substr(0, 30), "# For a robot file: frames: {t");
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(refusal({"tool", kTool, "-o", pipe}, 1),
             "armature: cannot write 'pipe': it is no regular file\n");
@@ -382,7 +373,7 @@ TEST_F(Calibrate, ARobotFileWithoutItsCalibrationIsRefused) {
   const auto message = [&] {
     const CommandResult result = run_command({armature(), "fk", "--robot", arm});
     EXPECT_EQ(result.exit_code, 3);
-    return result.err.substr(folder_.string().size() + 1);
+    return result.err.substr(folder_.path().string().size() + 1);
   };
   EXPECT_EQ(message(), "arm.yaml:2:29: cannot read '" + in_folder("tool.yaml") +
                            "': No such file or directory\n");

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature doctor` on the machine that the tests run on, whatever that is like.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -38,16 +37,13 @@ TEST(DoctorCommand, SaysALineForEachFindingAndEndsByItsProblems) {
 }
 
 TEST(DoctorCommand, NamesALibraryThatDoesNotLoadAndTheFolderItIsIn) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("armature-doctor-" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   std::ofstream{folder / "broken.so"} << "no library";
   const auto sick =
       run_command({armature(), "doctor"},
-                  {.environment = {{"ARMATURE_PLUGIN_PATH", folder.string()}}, .input = {}});
-  std::filesystem::remove_all(folder);
+                  {.environment = {{"ARMATURE_PLUGIN_PATH", folder.path().string()}}, .input = {}});
   EXPECT_EQ(sick.exit_code, 1);
-  EXPECT_THAT(sick.out, HasSubstr("plugin folder          " + folder.string()));
+  EXPECT_THAT(sick.out, HasSubstr("plugin folder          " + folder.path().string()));
   EXPECT_THAT(sick.out, HasSubstr("plugin library         " + (folder / "broken.so").string()));
 }
 

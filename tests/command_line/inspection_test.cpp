@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "armature/values/file_content.hpp"
 #include "armature/values/sanitizer.hpp"
 #include "command.hpp"
 
@@ -47,9 +48,7 @@ std::filesystem::path folder_beside_robots() {
 }
 
 TEST(Check, FindsTheExampleOfTheDocumentationSound) {
-  std::ostringstream page;
-  page << std::ifstream{source_file("docs/deployment_file.md")}.rdbuf();
-  const std::string text = page.str(), fence = "```yaml\n";
+  const std::string text = content_of(source_file("docs/deployment_file.md")), fence = "```yaml\n";
   const auto from = text.find(fence);
   ASSERT_NE(from, std::string::npos);
   const auto example =

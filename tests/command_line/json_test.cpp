@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `armature check`, `show` and `plugin` say to programs, beside what they say to people.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -40,11 +40,10 @@ TEST(CheckAsJson, OfASoundDeploymentIsOk) {
 }
 
 TEST(CheckAsJson, GivesEveryProblemItsPlaceAndTheNearestWordApart) {
-  const auto file =
-      std::filesystem::temp_directory_path() / ("armature-json-" + std::to_string(getpid()));
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "deployment.yaml";
   std::ofstream{file} << "armature: 1\nname: x\nclokc: system\n";
   const json problems = told({"check", file}, 3)["problems"];
-  std::filesystem::remove(file);
   EXPECT_THAT(problems, testing::Contains(json{{"file", file.string()},
                                                {"line", 3},
                                                {"column", 1},

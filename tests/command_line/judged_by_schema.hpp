@@ -3,7 +3,6 @@
 #pragma once
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -12,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -26,10 +26,8 @@ class JudgedBySchema : public testing::Test {
     EXPECT_EQ(result.exit_code, 0) << result.err;
     schema_ = nlohmann::json::parse(result.out, nullptr, false);
     EXPECT_FALSE(schema_.is_discarded()) << result.out.substr(0, 1000);
-    std::filesystem::create_directories(folder_);
     std::ofstream{folder_ / "schema.json"} << result.out;
   }
-  ~JudgedBySchema() override { std::filesystem::remove_all(folder_); }
 
   /// What the schema says against files, a line for each thing; empty: nothing.
   std::string judged(const std::vector<std::string>& files) const {
@@ -74,8 +72,7 @@ class JudgedBySchema : public testing::Test {
     }
   }
 
-  std::filesystem::path folder_ =
-      std::filesystem::temp_directory_path() / ("armature-schema-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
   nlohmann::json schema_;
 };
 

@@ -5,9 +5,8 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "armature/values/file_content.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -29,8 +28,7 @@ class NewPlugin : public testing::Test {
 TEST_F(NewPlugin, IsAShortSolverAndThreeLinesOfCMakeBesidesItsVersion) {
   ASSERT_EQ(write("ik/mine").exit_code, 0);
   const auto lines_of = [&](const char* file) {
-    std::ifstream in{folder / file};
-    return std::count(std::istreambuf_iterator<char>{in}, {}, '\n');
+    return std::ranges::count(content_of(folder / file), '\n');
   };
   EXPECT_LE(lines_of("mine.cpp"), 41);
   EXPECT_EQ(lines_of("CMakeLists.txt"), 4);
@@ -66,8 +64,7 @@ TEST_F(NewPlugin, ItsClassIsNotCalledAsAnotherOfItsFile) {
   const auto class_of = [&](const std::string& id) {
     fs::remove_all(folder);
     EXPECT_EQ(write(id).exit_code, 0);
-    std::ifstream in{folder / (id.substr(id.find('/') + 1) + ".cpp")};
-    const std::string text{std::istreambuf_iterator<char>{in}, {}};
+    const std::string text = content_of(folder / (id.substr(id.find('/') + 1) + ".cpp"));
     const auto at = text.find("class ");
     return text.substr(at, text.find(' ', at + 6) - at);
   };
@@ -79,8 +76,7 @@ TEST_F(NewPlugin, ItsClassIsNotCalledAsAnotherOfItsFile) {
 
 TEST_F(NewPlugin, ANameThatCppHasTakenIsANamespaceWithAnUnderscore) {
   ASSERT_EQ(write("ik/class").exit_code, 0);
-  std::ifstream in{folder / "class.cpp"};
-  const std::string text{std::istreambuf_iterator<char>{in}, {}};
+  const std::string text = content_of(folder / "class.cpp");
   EXPECT_NE(text.find("namespace armature::ik::class_ {"), std::string::npos) << text;
 }
 
@@ -107,8 +103,7 @@ TEST_F(NewPlugin, LeavesNoMarkOfItsTemplateInAnyFamily) {
     fs::remove_all(folder);
     ASSERT_EQ(write(std::string{family} + "/mine").exit_code, 0);
     for (const auto& entry : fs::directory_iterator{folder}) {
-      std::ifstream in{entry.path()};
-      const std::string text{std::istreambuf_iterator<char>{in}, {}};
+      const std::string text = content_of(entry.path());
       EXPECT_EQ(text.find('@'), std::string::npos) << entry.path();
       EXPECT_EQ(entry.path().filename().string().find('@'), std::string::npos) << entry.path();
     }

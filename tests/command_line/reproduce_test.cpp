@@ -3,12 +3,11 @@
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "armature/values/file_content.hpp"
 #include "tests/command.hpp"
 
 namespace armature::test {
@@ -29,8 +28,7 @@ TEST_P(Reproduce, EveryRowHoldsAndEveryFigureIsWritten) {
   EXPECT_EQ(report["failed"], 0);
   int tables = 0, figures = 0;
   for (const auto& entry : fs::directory_iterator{folder}) {
-    std::ifstream file{entry.path()};
-    const std::string text{std::istreambuf_iterator<char>{file}, {}};
+    const std::string text = content_of(entry.path());
     if (entry.path().extension() == ".svg") {
       ++figures;
       EXPECT_THAT(text, HasSubstr("class=\"curve\"")) << entry.path();

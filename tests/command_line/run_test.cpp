@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature run` for a script: one JSON object whatever happens, and every file or a reason.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -18,9 +18,6 @@ namespace fs = std::filesystem;
 
 class RunForAScript : public testing::Test {
  protected:
-  RunForAScript() { fs::create_directories(folder_); }
-  ~RunForAScript() override { fs::remove_all(folder_); }
-
   /// The biopsy, on the simulated clock.
   CommandResult run(const std::vector<std::string>& more) const {
     std::vector<std::string> command{armature(), "run",      source_file("configs/sr1_biopsy.yaml"),
@@ -31,12 +28,9 @@ class RunForAScript : public testing::Test {
 
   /// An older report in the folder; and what is there now.
   void leave_report() const { std::ofstream{folder_ / "report.json"} << "{\"status\":\"ok\"}\n"; }
-  std::string report() const {
-    std::ifstream file{folder_ / "report.json"};
-    return {std::istreambuf_iterator<char>{file}, {}};
-  }
+  std::string report() const { return content_of(folder_ / "report.json"); }
 
-  const fs::path folder_ = fs::temp_directory_path() / ("armature-run-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
   const int domain_ = unique_dds_domain();
 };
 
@@ -50,7 +44,8 @@ TEST_F(RunForAScript, AFaultyDeploymentIsOneObjectToo) {
 
 TEST_F(RunForAScript, OfARunThatIsRefusedTheReportIsWhatIsPrinted) {
   leave_report();
-  const auto unknown = run({"--report", folder_, "--set", "components.motion.ik.plugin=ik/numerc"});
+  const auto unknown =
+      run({"--report", folder_.path(), "--set", "components.motion.ik.plugin=ik/numerc"});
   EXPECT_EQ(unknown.exit_code, 3);
   EXPECT_EQ(nlohmann::json::parse(report())["status"], "invalid_config");
   EXPECT_EQ(report(), unknown.out);
@@ -68,7 +63,7 @@ TEST_F(RunForAScript, AReportFolderThatCannotBeMadeIsToldBeforeTheRun) {
 
 TEST_F(RunForAScript, AReportThatCannotBeWrittenFailsTheRunAndTheFiguresArePrinted) {
   fs::create_directories(folder_ / "report.json");
-  const auto result = run({"--report", folder_});
+  const auto result = run({"--report", folder_.path()});
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_EQ(nlohmann::json::parse(result.out)["status"], "ok");
   EXPECT_THAT(result.err,
@@ -79,42 +74,44 @@ TEST_F(RunForAScript, AReportThatCannotBeWrittenFailsTheRunAndTheFiguresArePrint
 TEST_F(RunForAScript, ATableOfJointsThatCannotBeMadeIsToldBeforeTheRun) {
   const fs::path table = folder_ / "arm_joints.csv";
   fs::create_directories(table);
-  const auto result = run({"--report", folder_});
+  const auto result = run({"--report", folder_.path()});
   EXPECT_EQ(result.exit_code, 3);
   EXPECT_THAT(result.err,
               testing::HasSubstr("cannot write '" + table.string() + "': it is no regular file"));
 }
 
 TEST_F(RunForAScript, TheReportIsWhatIsPrinted) {
-  const auto result = run({"--report", folder_});
+  const auto result = run({"--report", folder_.path()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(report(), result.out);
 }
 
 TEST_F(RunForAScript, FilesOfAnOlderRunGoFromTheFolderAndThoseOfOthersStay) {
-  fs::create_directories(folder_);
+  fs::create_directories(folder_.path());
   std::ofstream{folder_ / "notes.txt"} << "mine";
   const auto first =
       run_command({armature(), "run", source_file("configs/sr1_from_images.yaml"), "--json",
-                   "--report", folder_, "--domain", std::to_string(domain_)});
+                   "--report", folder_.path(), "--domain", std::to_string(domain_)});
   ASSERT_EQ(first.exit_code, 0) << first.err;
   for (const char* name : {"needle_ways.csv", "arm_joints.csv", "report.html", "run.mcap"}) {
     EXPECT_TRUE(fs::exists(folder_ / name)) << name;
   }
   const auto checked =
-      run_command({"/usr/bin/env", "-C", folder_, "sha256sum", "-c", "report.sha256"});
+      run_command({"/usr/bin/env", "-C", folder_.path(), "sha256sum", "-c", "report.sha256"});
   EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
   EXPECT_THAT(checked.out, testing::HasSubstr("needle_ways.csv: OK\n"));
   EXPECT_THAT(checked.out, testing::HasSubstr("report.html: OK\n"));
   std::ofstream{folder_ / "arm_joints.svg", std::ios::app} << "<!-- seen by me -->";
-  const auto refused = run({"--report", folder_, "--set", "components.motion.ik.plugin=ik/numerc"});
+  const auto refused =
+      run({"--report", folder_.path(), "--set", "components.motion.ik.plugin=ik/numerc"});
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_THAT(refused.err,
               testing::HasSubstr(
                   "'" + (folder_ / "arm_joints.svg").string() +
                   "' is of an older run into this folder; it stays, as it was changed since\n"));
   std::vector<std::string> left;
-  for (const auto& entry : fs::directory_iterator{folder_}) left.push_back(entry.path().filename());
+  for (const auto& entry : fs::directory_iterator{folder_.path()})
+    left.push_back(entry.path().filename());
   EXPECT_THAT(left, testing::UnorderedElementsAre("notes.txt", "arm_joints.svg", "report.json"));
 }
 

@@ -14,7 +14,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/file_content.hpp"
 #include "armature/values/sanitizer.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "tests/command_line/lamp_robot.hpp"
 
 namespace armature::test {
@@ -25,9 +27,6 @@ using nlohmann::json;
 
 class Streaming : public testing::Test {
  protected:
-  Streaming() { fs::create_directories(folder_); }
-  ~Streaming() override { fs::remove_all(folder_); }
-
   /// Line i asks for the first joint at i microradians: its answer shows where it belongs.
   std::string fk_lines(int count) const {
     const std::string file = folder_ / ("fk" + std::to_string(count));
@@ -73,11 +72,7 @@ class Streaming : public testing::Test {
     wait4(child, &status, 0, &used);
     result.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     result.peak_kib = used.ru_maxrss;
-    if (terminal < 0) {
-      std::ostringstream text;
-      text << std::ifstream{talk}.rdbuf();
-      result.talk = text.str();
-    }
+    if (terminal < 0) result.talk = content_of(talk);
     return result;
   }
   static std::vector<std::string> lines_of(const std::string& file) {
@@ -87,8 +82,7 @@ class Streaming : public testing::Test {
     return lines;
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-streaming-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 /// Whether what a run held at most grew with its input; a sanitizer holds back what was freed.

@@ -2,11 +2,11 @@
 // A file of another sort in the place of a deployment or a robot, a folder that is not there, and
 // an arm that was forgotten: each is told as what it is, with the way out.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/text.hpp"
 
@@ -18,8 +18,6 @@ using testing::HasSubstr;
 
 class WrongFile : public testing::Test {
  protected:
-  WrongFile() { fs::create_directories(folder_); }
-  ~WrongFile() override { fs::remove_all(folder_); }
   std::string written(const std::string& name, const std::string& text) const {
     std::ofstream{folder_ / name} << text;
     return (folder_ / name).string();
@@ -31,8 +29,7 @@ class WrongFile : public testing::Test {
     EXPECT_EQ(result.exit_code, 3) << result.err;
     return result.err;
   }
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-wrong-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(WrongFile, ARobotFileIsNoDeployment) {

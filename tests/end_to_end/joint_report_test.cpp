@@ -2,19 +2,18 @@
 // What `--report` tells of the joints of all four systems: 1. tables, errors and pictures, the same
 // in every run, 2. a run that is killed, with its arm in another process.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <numbers>
 #include <sstream>
 #include <thread>
 
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
 
 namespace armature::test {
@@ -35,11 +34,6 @@ struct System {
 };
 
 std::ostream& operator<<(std::ostream& out, const System& system) { return out << system.name; }
-
-std::string text_in(const fs::path& file) {
-  std::ifstream in{file};
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
 
 /// Empty fields are NaN.
 struct Table {
@@ -129,11 +123,7 @@ void expect_goal_met(const Table& table, const Tolerance& tolerance) {
 
 class JointReport : public testing::TestWithParam<System> {
  protected:
-  JointReport() { fs::create_directories(folder_); }
-  ~JointReport() override { fs::remove_all(folder_); }
-
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-joint-report-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 // 1.
@@ -152,16 +142,16 @@ TEST_P(JointReport, TellsEveryArmTheSameInEveryRunAndChangesNothing) {
   for (const auto& [arm, tolerance] : system.arms) {
     SCOPED_TRACE(arm);
     const std::string csv = arm + "_joints.csv", svg = arm + "_joints.svg";
-    const std::string text = text_in(folder_ / "first" / csv);
-    EXPECT_TRUE(text == text_in(folder_ / "second" / csv)) << "byte for byte";
-    EXPECT_TRUE(text_in(folder_ / "first" / svg) == text_in(folder_ / "second" / svg));
+    const std::string text = content_of(folder_ / "first" / csv);
+    EXPECT_TRUE(text == content_of(folder_ / "second" / csv)) << "byte for byte";
+    EXPECT_TRUE(content_of(folder_ / "first" / svg) == content_of(folder_ / "second" / svg));
     const Table table = read_table(text);
     ASSERT_GT(table.rows.size(), 100u);
     expect_even_times(table);
     expect_errors_that_add_up(table);
     expect_rest(table, system.joint_error);
     expect_goal_met(table, tolerance);
-    EXPECT_NE(text_in(folder_ / "first" / svg).find("joint speed [rad/s]"), std::string::npos);
+    EXPECT_NE(content_of(folder_ / "first" / svg).find("joint speed [rad/s]"), std::string::npos);
   }
 }
 
@@ -186,15 +176,15 @@ TEST_P(KilledRun, LeavesWholeLinesOfAnArmInAnotherProcess) {
     Command run{deployment_command(
         {.settings = {"components.arm.process=arm", "components.arm.executor=arm",
                       "executors.arm.period_s=0.001"},
-         .report_folder = folder_})};
+         .report_folder = folder_.path()})};
     constexpr std::size_t kEnough = 40'000;  // bytes: a second and a half
-    for (int i = 0; i < 600 && text_in(csv).size() < kEnough; ++i) {
+    for (int i = 0; i < 600 && content_of(csv).size() < kEnough; ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds{50});
     }
     run.signal(SIGKILL);
     run.finish(std::chrono::seconds{10});
   }
-  const Table table = read_table(text_in(csv));
+  const Table table = read_table(content_of(csv));
   ASSERT_GT(table.rows.size(), 50u);
   const std::size_t time = table.column("time_s"), error = table.column("j1_error_rad");
   for (std::size_t i = 1; i < table.rows.size(); ++i) {

@@ -3,7 +3,6 @@
 //    many processes and threads it ran. 2. A component that does something else than it did is
 //    named, with the place of the first difference. 3. What cannot be compared is told.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <filesystem>
@@ -14,6 +13,8 @@
 
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_writer.hpp"
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -28,9 +29,6 @@ constexpr std::chrono::seconds kEnough{120};
 
 class Replay : public testing::Test {
  protected:
-  Replay() { fs::create_directories(folder_); }
-  ~Replay() override { fs::remove_all(folder_); }
-
   /// Runs the lamp for a while and records it.
   CommandResult record(std::vector<std::string> more, double time_limit_s = 4,
                        const std::string& deployment = "configs/dental_lamp.yaml") const {
@@ -48,10 +46,6 @@ class Replay : public testing::Test {
   /// Another deployment, on the simulated clock: it has no pictures, and is done at once.
   CommandResult record_needle() const { return record({}, 2, "configs/sr1_biopsy.yaml"); }
   std::string file(const std::string& name = "run.mcap") const { return folder_ / name; }
-  static std::string text_of(const fs::path& file) {
-    std::ifstream stream{file, std::ios::binary};
-    return {std::istreambuf_iterator<char>{stream}, {}};
-  }
   /// What an attachment of a recording says.
   static std::string attached(const std::string& file, const std::string& name) {
     McapReader reader{file};
@@ -84,8 +78,7 @@ class Replay : public testing::Test {
     return {};
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-replay-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(Replay, ARunOnTheSystemClockComesBackBitForBit) {
@@ -255,7 +248,7 @@ TEST_F(Replay, TheReportOfARunHasItsPage) {
   for (int times = 0; times < 2; ++times) {  // the second takes the place of the first
     const CommandResult result = run({});
     EXPECT_EQ(json::parse(result.out)["status"], "goals_missed") << "nothing else on the output";
-    EXPECT_NE(text_of(out / "report.html").find("data-figures=\"{&quot;status&quot;"),
+    EXPECT_NE(content_of(out / "report.html").find("data-figures=\"{&quot;status&quot;"),
               std::string::npos);
     const CommandResult replay = run_command({armature(), "replay", "--check", out / "run.mcap"});
     EXPECT_EQ(replay.exit_code, 1);
@@ -274,13 +267,13 @@ TEST_F(Replay, TheReportOfARunHasItsPage) {
 
 TEST_F(Replay, AResultThatCannotBePrintedCostsNeitherReportNorRecording) {
   const std::string run = armature() + " run " + source_file("configs/sr1_biopsy.yaml") +
-                          " --json --timing --report '" + folder_.string() +
+                          " --json --timing --report '" + folder_.path().string() +
                           "' --set record.file=" + file() + " --domain " +
                           std::to_string(unique_dds_domain());
   const CommandResult result = run_command({"/bin/sh", "-c", run + " > /dev/full"}, {}, kEnough);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("the result was not printed: No space left on device"));
-  EXPECT_EQ(json::parse(text_of(folder_ / "report.json"))["status"], "ok");
+  EXPECT_EQ(json::parse(content_of(folder_ / "report.json"))["status"], "ok");
   EXPECT_TRUE(fs::exists(folder_ / "report.html"));
   EXPECT_TRUE(json::parse(run_command({armature(), "info", file(), "--json"}).out)["whole"]);
 }
@@ -449,12 +442,12 @@ TEST_F(Replay, WhatHappenedAroundATroubleIsInAFileOfItsOwn) {
                "record={file: \"" + named.string() + "\", around_faults_s: 1}", "--inject",
                "monitor:throw", "--domain", std::to_string(unique_dds_domain())}};
   ASSERT_TRUE(run.wait_for_err("aligning", kEnough));
-  EXPECT_TRUE(fs::is_empty(folder_)) << "nothing has happened yet";
+  EXPECT_TRUE(fs::is_empty(folder_.path())) << "nothing has happened yet";
   run.signal(SIGUSR1);
   const CommandResult result = run.finish(kEnough);
   EXPECT_THAT(result.err, HasSubstr("what happened around the trouble is recorded: "));
-  ASSERT_FALSE(fs::is_empty(folder_));
-  const std::string written = fs::directory_iterator { folder_ } -> path();
+  ASSERT_FALSE(fs::is_empty(folder_.path()));
+  const std::string written = fs::directory_iterator { folder_.path() } -> path();
   const json info = json::parse(run_command({armature(), "info", written, "--json"}).out);
   EXPECT_TRUE(info["whole"]);
   EXPECT_GT(info["length_s"], 1.0) << "before and after";
@@ -511,7 +504,7 @@ TEST_F(Replay, ANameWithoutAFolderIsInTheFolderWhereTheRunIs) {
   const std::string run = armature() + " run " + source_file("configs/dental_lamp.yaml") +
                           " --set record.file=here.mcap --set run.time_limit_s=1 --domain " +
                           std::to_string(unique_dds_domain());
-  run_command({"/bin/sh", "-c", "cd '" + folder_.string() + "' && " + run}, {}, kEnough);
+  run_command({"/bin/sh", "-c", "cd '" + folder_.path().string() + "' && " + run}, {}, kEnough);
   EXPECT_TRUE(fs::exists(file("here.mcap")));
 }
 

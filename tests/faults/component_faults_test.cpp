@@ -3,13 +3,13 @@
 // run goes on without it, and whoever it was is named. The deployment is a source that an arm
 // obeys, and a monitor whose notes nobody reads.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "armature/values/sanitizer.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -36,7 +36,6 @@ class ComponentFaults : public testing::Test {
            "  arm: {plugin: test/driver, executor: control}\n"
            "  monitor: {plugin: test/breaker, topics: monitor, executor: monitor}\n";
   }
-  void TearDown() override { fs::remove(file_); }
 
   std::vector<std::string> command(const std::vector<std::string>& settings) const {
     std::vector<std::string> words{
@@ -51,8 +50,8 @@ class ComponentFaults : public testing::Test {
     return run_command(command(settings), options_);
   }
 
-  fs::path file_ =
-      fs::temp_directory_path() / ("armature-broken-" + std::to_string(getpid()) + ".yaml");
+  const TemporaryFolder folder_;
+  const fs::path file_ = folder_ / "broken.yaml";
   int domain_ = unique_dds_domain();
   Command::Options options_{.environment = {{"ARMATURE_PLUGIN_PATH", FAULT_PLUGINS}}, .input = {}};
 };

@@ -2,11 +2,12 @@
 // Faulty deployments: each is one change of base.yaml, and gives its exact messages, with line and
 // column, and exit code 3 before anything is started.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -398,14 +399,9 @@ class FaultyDeployment : public testing::TestWithParam<Fault> {
   using Change = std::pair<std::string, std::string>;  // this text becomes that
 
  protected:
-  FaultyDeployment() { fs::create_directories(folder_); }
-  ~FaultyDeployment() override { fs::remove_all(folder_); }
-
   /// What `verb` says of the base with these changes.
   CommandResult check(const std::vector<Change>& changes, const char* verb = "check") const {
-    std::ostringstream base;
-    base << std::ifstream{source_file("tests/faults/base.yaml")}.rdbuf();
-    std::string text = base.str();
+    std::string text = content_of(source_file("tests/faults/base.yaml"));
     for (const auto& [from, to] : changes) text = replaced(text, from, to);
     for (const std::string mark = "@CONFIGS@"; text.find(mark) != std::string::npos;) {
       text = replaced(text, mark, source_file("configs"));
@@ -415,13 +411,14 @@ class FaultyDeployment : public testing::TestWithParam<Fault> {
     CommandResult result =
         run_command({armature(), verb, file.string()},
                     {.environment = {{"ARMATURE_PLUGIN_PATH", FAULT_PLUGINS}}, .input = {}});
-    result.err = without(without(result.err, folder_.string() + "/"), source_file("configs/"));
+    result.err =
+        without(without(result.err, folder_.path().string() + "/"), source_file("configs/"));
     result.err = without(result.err, "; searched " FAULT_PLUGINS ", " ARMATURE_PLUGIN_BUILD_DIR);
     return result;
   }
 
  private:
-  fs::path folder_ = fs::temp_directory_path() / ("armature-fault-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_P(FaultyDeployment, IsRefusedWithItsExactMessage) {
@@ -492,8 +489,8 @@ TEST_F(SoundDeployment, AnInterfaceOfAnotherMachinePassesTheCheckAndNotTheRun) {
 const FaultyDeployment::Change kSystemClock{"clock: simulated", "clock: system"};
 
 TEST_F(SoundDeployment, AProgramThatAParameterNamesIsNotRunByTheCheck) {
-  const fs::path trace =
-      fs::temp_directory_path() / ("armature-program-ran-" + std::to_string(getpid()));
+  const TemporaryFolder folder;
+  const fs::path trace = folder / "program_ran";
   const auto result =
       check({kSystemClock,
              {"plugin: ik/lamp_geometric",
@@ -502,7 +499,7 @@ TEST_F(SoundDeployment, AProgramThatAParameterNamesIsNotRunByTheCheck) {
   EXPECT_TRUE(
       result.out.starts_with("not tried: component 'motion', as ik/process runs a program\n"))
       << result.out;
-  EXPECT_FALSE(fs::remove(trace)) << "it ran";
+  EXPECT_FALSE(fs::exists(trace)) << "it ran";
 }
 
 using SplitDeployment = FaultyDeployment;

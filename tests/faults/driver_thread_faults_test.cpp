@@ -2,7 +2,6 @@
 // A component with a driver thread, in a run: what the thread reads comes out, and whatever its
 // device does, the run ends in time and says what was wrong.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <filesystem>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "armature/values/sanitizer.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -28,7 +28,6 @@ class DriverThreadFaults : public testing::Test {
     std::ofstream{file_} << "armature: 1\nname: reading\nrun: {time_limit_s: " << kReading_s
                          << "}\ncomponents:\n  reader: {plugin: test/reader}\n";
   }
-  ~DriverThreadFaults() override { fs::remove(file_); }
 
   CommandResult run(const std::string& setting) {
     const auto start = std::chrono::steady_clock::now();
@@ -43,8 +42,8 @@ class DriverThreadFaults : public testing::Test {
     return run("components.reader.params.device=" + device);
   }
 
-  fs::path file_ =
-      fs::temp_directory_path() / ("armature-reading-" + std::to_string(getpid()) + ".yaml");
+  const TemporaryFolder folder_;
+  const fs::path file_ = folder_ / "reading.yaml";
   Command::Options options_{.environment = {{"ARMATURE_PLUGIN_PATH", FAULT_PLUGINS}}, .input = {}};
   double seconds_ = 0;  // that the last run took
 };

@@ -2,12 +2,12 @@
 // A plugin that calls exit(0): the process ends there, and neither its exit code nor what is told
 // says that all is well.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -26,7 +26,6 @@ class EndedProcess : public testing::Test {
                             "  monitor: {plugin: test/breaker, topics: monitor, executor: "
                             "monitor}\n";
   }
-  void TearDown() override { std::filesystem::remove(file_); }
 
   CommandResult with(std::vector<std::string> words, const std::string& breaks) const {
     words.insert(words.begin(), armature());
@@ -41,8 +40,8 @@ class EndedProcess : public testing::Test {
                 breaks);
   }
 
-  std::filesystem::path file_ = std::filesystem::temp_directory_path() /
-                                ("armature-ended-" + std::to_string(getpid()) + ".yaml");
+  const TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "ended.yaml";
   int domain_ = unique_dds_domain();
   Command::Options options_{.environment = {{"ARMATURE_PLUGIN_PATH", FAULT_PLUGINS}}, .input = {}};
 };

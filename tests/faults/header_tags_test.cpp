@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nobody can forget the ABI tag: it is made of the tokens of the headers themselves.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <string>
 
 #include "armature/runtime/plugins/abi.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/text.hpp"
 
@@ -27,7 +27,6 @@ std::string with_every(const std::string& text, const std::string& pattern, cons
 class HeaderTags : public testing::Test {
  protected:
   HeaderTags() {
-    fs::create_directories(folder_);
     write("libraries.cmake",
           "set(libraries \"abi;path;ik;select\")\n"
           "set(abi_headers \"" +
@@ -41,7 +40,6 @@ class HeaderTags : public testing::Test {
               "\")\n"
               "set(select_headers \"\")\nset(select_links \"ik\")\n");
   }
-  ~HeaderTags() override { fs::remove_all(folder_); }
 
   void write(const std::string& name, const std::string& text) const {
     std::ofstream{folder_ / name} << text;
@@ -70,8 +68,7 @@ class HeaderTags : public testing::Test {
   }
 
   const std::string header_ = text_of(source_file("framework/armature/kinds/ik/ik.hpp"));
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-tags-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(HeaderTags, CommentsAndBlanksDoNotCount) {
@@ -107,7 +104,7 @@ TEST_F(HeaderTags, APluginOfOtherHeadersIsRefusedWithBothTags) {
   const auto result =
       run_command({armature(), "ik", "--robot", source_file("configs/robots/dental_lamp.yaml"),
                    "--plugin", "ik/changed"},
-                  {.environment = {{"ARMATURE_PLUGIN_PATH", folder_}}, .input = {}});
+                  {.environment = {{"ARMATURE_PLUGIN_PATH", folder_.path()}}, .input = {}});
   EXPECT_EQ(result.exit_code, 4);
   EXPECT_EQ(result.err, "armature: plugin 'ik/changed' cannot be used: " +
                             (folder_ / "changed.so").string() + ": built for [" + tag +

@@ -2,7 +2,6 @@
 // A crashing, a hanging, a foreign and an outdated library in the plugin path: each gives a clear
 // message, and stops nothing else.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <csignal>
@@ -10,6 +9,7 @@
 #include <fstream>
 #include <thread>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -82,8 +82,8 @@ TEST(FaultyLibrary, WhatASolverThrowsInTheCalculatorIsTold) {
 }
 
 TEST(FaultyLibrary, OneThatIsTriedWhenTheRunIsInterruptedSaysNothing) {
-  const auto deployment = std::filesystem::temp_directory_path() /
-                          ("armature-hanging-" + std::to_string(getpid()) + ".yaml");
+  const TemporaryFolder folder;
+  const std::filesystem::path deployment = folder / "hanging.yaml";
   std::ofstream{deployment} << "armature: 1\nname: hanging\nrobots: {arm: " << kLamp
                             << "}\ncomponents: {ik: {plugin: ik/hanging}}\n";
   Command run{{armature(), "run", deployment, "--json"}, kFaultyPath};
@@ -92,7 +92,6 @@ TEST(FaultyLibrary, OneThatIsTriedWhenTheRunIsInterruptedSaysNothing) {
   kill(trial, SIGINT);  // as Ctrl-C does
   run.signal(SIGINT);
   const CommandResult result = run.finish(std::chrono::seconds{10});
-  std::filesystem::remove(deployment);
   EXPECT_EQ(std::count(result.out.begin(), result.out.end(), '\n'), 1) << result.out;
 }
 
@@ -125,13 +124,11 @@ TEST(FaultyLibrary, AForeignOneIsListedWithItsReason) {
 }
 
 TEST(FaultyLibrary, AFileThatIsNoLibraryIsListedWithItsReason) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("armature-no-library-" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   std::ofstream{folder / "text.so"} << "just text";
-  const auto result = run_command({armature(), "plugin", "list"},
-                                  {.environment = {{"ARMATURE_PLUGIN_PATH", folder}}, .input = {}});
-  std::filesystem::remove_all(folder);
+  const auto result =
+      run_command({armature(), "plugin", "list"},
+                  {.environment = {{"ARMATURE_PLUGIN_PATH", folder.path()}}, .input = {}});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_NE(result.err.find("text.so cannot be used: not a 64-bit ELF library"), std::string::npos)
       << result.err;

@@ -2,14 +2,14 @@
 // tools/: what is installed and why, how far a build is, and the verdict of the tests. Nothing is
 // installed, built or tested here: apt-get, cmake, ninja and ctest are replaced by stand-ins.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -31,7 +31,6 @@ class Tools : public testing::Test {
     stand_in("nproc", "echo 2");
     stand_in("apt-get", "echo 'apt-get was called' >&2; exit 1");
   }
-  ~Tools() override { fs::remove_all(root_); }
 
   void stand_in(const std::string& name, const std::string& script) const {
     const fs::path file = root_ / "stand_ins" / name;
@@ -52,16 +51,11 @@ class Tools : public testing::Test {
     return run_command(
         arguments,
         {.environment = {{"PATH", (root_ / "stand_ins").string() + ":" + (path ? path : "")},
-                         {"TMPDIR", root_.string()}},
+                         {"TMPDIR", root_.path().string()}},
          .input = {}});
   }
-  std::string text_of(const std::string& file) const {
-    std::ostringstream text;
-    text << std::ifstream{root_ / file}.rdbuf();
-    return text.str();
-  }
 
-  const fs::path root_ = fs::temp_directory_path() / ("armature-tools-" + std::to_string(getpid()));
+  const TemporaryFolder root_;
 };
 
 std::string last_line(const std::string& text) {
@@ -230,7 +224,7 @@ TEST_F(TestScript, TakesATestByItsNameWithoutReadingItAsAPattern) {
   stand_in("ninja", "exit 0");
   stand_in("ctest", "printf '%s\\n' \"$@\" > \"$(dirname \"$0\")/asked\"");
   EXPECT_EQ(run({"test", "--preset", "dev", "--only", "A.Is(odd)/x[1]"}).exit_code, 0);
-  EXPECT_THAT(text_of("stand_ins/asked"), HasSubstr("\n-R\nA\\.Is\\(odd\\)/x\\[1\\]\n"));
+  EXPECT_THAT(content_of(root_ / "stand_ins/asked"), HasSubstr("\n-R\nA\\.Is\\(odd\\)/x\\[1\\]\n"));
 }
 
 TEST_F(TestScript, RunsNoTestOfWhatCouldNotBeBuilt) {

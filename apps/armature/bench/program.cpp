@@ -9,11 +9,10 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 #include <utility>
 
+#include "armature/values/file_content.hpp"
 #include "armature/values/spawn_plan.hpp"
 
 namespace armature::bench {
@@ -28,11 +27,6 @@ int open_output(const std::filesystem::path& output, const char* ending) {
   const int opened = open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
   if (opened < 0) throw std::system_error(errno, std::generic_category(), file);
   return opened;
-}
-
-std::string content(const std::string& file) {
-  std::ifstream stream{file};
-  return {std::istreambuf_iterator<char>{stream}, {}};
 }
 
 }  // namespace
@@ -67,8 +61,8 @@ Program::~Program() {
   wait();
 }
 
-std::string Program::out() const { return content(output_.string() + ".out"); }
-std::string Program::err() const { return content(output_.string() + ".err"); }
+std::string Program::out() const { return content_of(output_.string() + ".out"); }
+std::string Program::err() const { return content_of(output_.string() + ".err"); }
 
 void Program::interrupt() {
   if (!has_ended()) kill(pid_, SIGINT);

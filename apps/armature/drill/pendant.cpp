@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <system_error>
 #include <utility>
 
@@ -24,9 +23,6 @@ constexpr int kHold = BTN_TRIGGER, kRearm = BTN_THUMB;
 }  // namespace
 
 Pendant::Pendant(const std::vector<HeedsPendant>& components) {
-  std::string pattern = std::filesystem::temp_directory_path() / "armature-drill-XXXXXX";
-  if (!mkdtemp(pattern.data())) fail("cannot make " + pattern);
-  folder_ = pattern;
   for (const HeedsPendant& component : components) {
     const auto path = folder_ / component.name;
     if (mkfifo(path.c_str(), 0600) != 0) fail("cannot make " + path.string());
@@ -37,11 +33,7 @@ Pendant::Pendant(const std::vector<HeedsPendant>& components) {
   }
 }
 
-Pendant::~Pendant() {
-  unplug();
-  std::error_code none;
-  std::filesystem::remove_all(folder_, none);
-}
+Pendant::~Pendant() { unplug(); }
 
 std::vector<std::string> Pendant::settings() const {
   std::vector<std::string> settings;

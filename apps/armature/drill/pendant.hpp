@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "armature/values/temporary_folder.hpp"
 #include "drill/drilled_deployment.hpp"
 
 namespace armature::drill {
@@ -34,7 +35,7 @@ class Pendant {
   };
   void send(int button, bool down) const;
 
-  std::filesystem::path folder_;
+  TemporaryFolder folder_;
   std::vector<Device> devices_;
 };
 

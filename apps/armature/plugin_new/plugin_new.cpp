@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -18,6 +16,7 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/runtime/reporting/output_folder.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/file_content.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 #include "plugin_new/family.hpp"
@@ -28,11 +27,6 @@ namespace armature {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in{file, std::ios::binary};
-  return {std::istreambuf_iterator<char>{in}, {}};
-}
 
 void replace_all(std::string& text, std::string_view mark, std::string_view value) {
   for (auto at = text.find(mark); at != std::string::npos;
@@ -125,7 +119,8 @@ class Marks {
 
 /// Adds what the files that all families share say differently of each.
 void add_shared_marks(const PluginFamily& family, const fs::path& from, Marks& marks) {
-  const config::Node manifest = config::parse_text(marks.fill(text_of(from / "plugin.yaml")), "");
+  const config::Node manifest =
+      config::parse_text(marks.fill(content_of(from / "plugin.yaml")), "");
   marks.add("@DOC@", manifest.find("doc")->text());
   marks.add("@LINK@", fmt::format("Armature::{}", fmt::join(family.links, " Armature::")));
   const bool has_test = fs::exists(from / "@NAME@_test.cpp");
@@ -156,13 +151,13 @@ int new_plugin(const std::string& text, const fs::path& directory) {
   }
   prepare_output_folder(directory);
   const fs::path from = template_folder() / id.family, common = template_folder() / "common";
-  Marks marks{id, text_of(from / "@NAME@.cpp")};
+  Marks marks{id, content_of(from / "@NAME@.cpp")};
   const PluginFamily family =
       read_family(id.family, [&](std::string filled) { return marks.fill(std::move(filled)); });
   add_shared_marks(family, from, marks);
   const auto write = [&](const fs::path& file) {
     const fs::path written = directory / marks.fill(file.filename());
-    write_atomically(written, marks.fill(text_of(file)), FileUse::named_by_user);
+    write_atomically(written, marks.fill(content_of(file)), FileUse::named_by_user);
   };
   for (const auto& entry : fs::directory_iterator{from}) {
     if (entry.path().filename() != "family.yaml") write(entry.path());

@@ -2,11 +2,12 @@
 #include "run/report_list.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
+
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature {
 namespace {
@@ -15,26 +16,19 @@ namespace fs = std::filesystem;
 
 class ReportListTest : public testing::Test {
  protected:
-  ReportListTest() { fs::create_directories(folder_); }
-  ~ReportListTest() override { fs::remove_all(folder_); }
-
   void put(const std::string& name, const std::string& text) const {
     std::ofstream{folder_ / name} << text;
   }
   bool has(const std::string& name) const { return fs::exists(folder_ / name); }
-  std::string list() const {
-    std::ifstream file{folder_ / "report.sha256"};
-    return {std::istreambuf_iterator<char>{file}, {}};
-  }
+  std::string list() const { return content_of(folder_ / "report.sha256"); }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-report-list-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(ReportListTest, ListsWhatWasWrittenMeanwhileAsSha256sumDoes) {
   put("notes.txt", "mine");
   put("left_camera.png", "yesterday's");
-  ReportList report{folder_};
+  ReportList report{folder_.path()};
   report.add("arm_joints.csv");
   report.add("missing.csv");
   put("arm_joints.csv", "");
@@ -53,7 +47,7 @@ TEST_F(ReportListTest, ListsWhatWasWrittenMeanwhileAsSha256sumDoes) {
 }
 
 TEST_F(ReportListTest, HasWhatWasWrittenBeforeSomethingCouldNotBe) {
-  ReportList report{folder_};
+  ReportList report{folder_.path()};
   EXPECT_THROW(report.add_what([&] {
     put("report.json", "abc");
     throw std::runtime_error{"the disk is full"};
@@ -64,7 +58,7 @@ TEST_F(ReportListTest, HasWhatWasWrittenBeforeSomethingCouldNotBe) {
 }
 
 TEST_F(ReportListTest, OnlyWhatItNamesIsRemovedAndOnlyAsItWasLeft) {
-  const fs::path outside = folder_.string() + ".outside";
+  const fs::path outside = folder_.path().string() + ".outside";
   std::ofstream{outside} << "abc";
   const std::string abc = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad  ";
   for (const char* name : {"report.json", "notes.txt", "changed.csv"}) put(name, "abc");
@@ -73,13 +67,13 @@ TEST_F(ReportListTest, OnlyWhatItNamesIsRemovedAndOnlyAsItWasLeft) {
                            "missing.png\n" + abc + "../" + outside.filename().string() +
                            "\nno line of a list\n\n");
   put("changed.csv", "with a note of mine");
-  EXPECT_EQ(remove_listed_files(folder_), std::vector<std::string>{"changed.csv"});
+  EXPECT_EQ(remove_listed_files(folder_.path()), std::vector<std::string>{"changed.csv"});
   EXPECT_FALSE(has("report.json"));
   EXPECT_FALSE(has("report.sha256"));
   for (const char* name : {"notes.txt", "changed.csv", "link"}) EXPECT_TRUE(has(name)) << name;
   EXPECT_TRUE(fs::exists(outside)) << "the list may lead nowhere else";
   fs::remove(outside);
-  EXPECT_TRUE(remove_listed_files(folder_).empty()) << "there is no list any more";
+  EXPECT_TRUE(remove_listed_files(folder_.path()).empty()) << "there is no list any more";
   EXPECT_TRUE(has("notes.txt"));
 }
 

@@ -2,12 +2,13 @@
 #include "sweep/finished_runs.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cstddef>
 #include <fstream>
-#include <iterator>
 #include <stdexcept>
+
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature::sweep {
 namespace {
@@ -16,17 +17,10 @@ namespace fs = std::filesystem;
 
 class FinishedRunsTest : public testing::Test {
  protected:
-  FinishedRunsTest() { fs::create_directories(folder_); }
-  ~FinishedRunsTest() override { fs::remove_all(folder_); }
-
   void write(const std::string& text) const { std::ofstream{file_} << text; }
-  std::string text() const {
-    std::ifstream stream{file_};
-    return {std::istreambuf_iterator<char>{stream}, {}};
-  }
+  std::string text() const { return content_of(file_); }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-finished-runs-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
   const fs::path file_ = folder_ / "runs.jsonl";
 };
 

@@ -11,7 +11,7 @@
 #include "armature/config/document.hpp"
 #include "armature/kinds/declared_params.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
-#include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 
 namespace armature {
 namespace {
@@ -21,9 +21,8 @@ using Eigen::Vector3d;
 class WorkspaceTest : public testing::Test {
  protected:
   const RobotModel arm_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7_scope.yaml");
-  PluginRegistry plugins_{{ARMATURE_PLUGIN_BUILD_DIR}};
   const PluginPtr<IkSolver> solver_ =
-      std::move(plugins_
+      std::move(built_plugins()
                     .make<IkSolver>("ik/srs_arm_angle", arm_,
                                     declared_params(ARMATURE_SOURCE_DIR
                                                     "/plugins/ik/srs_arm_angle/plugin.yaml"))

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "armature/values/temporary_folder.hpp"
 #include "bench/loop/loop_report.hpp"
 #include "bench/loop/measured_loop.hpp"
 #include "bench/loop/page.hpp"
@@ -22,7 +23,6 @@
 #include "bench/processors.hpp"
 #include "bench/program.hpp"
 #include "bench/statistics.hpp"
-#include "bench/temporary_folder.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
 #include "standard_output.hpp"
@@ -77,7 +77,7 @@ class Watchers {
   }
 
   int readers_;
-  bench::TemporaryFolder folder_;
+  TemporaryFolder folder_;
   std::vector<std::unique_ptr<bench::Program>> programs_;
 };
 

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -22,9 +20,10 @@
 #include "armature/config/document.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "bench/pause.hpp"
 #include "bench/program.hpp"
-#include "bench/temporary_folder.hpp"
 #include "bench/watched/watched_report.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
@@ -40,11 +39,6 @@ using bench::WatchedReport;
 using bench::WatchedRound;
 using bench::WatchedRun;
 using bench::Watching;
-
-std::string content(const fs::path& file) {
-  std::ifstream stream{file};
-  return {std::istreambuf_iterator<char>{stream}, {}};
-}
 
 /// Linux cuts a thread's name there.
 constexpr std::size_t kThreadName = 15;
@@ -86,9 +80,9 @@ Subject subject_of(const DeploymentSource& source) {
 std::map<std::string, double> processor_times(pid_t process) {
   std::map<std::string, double> times;
   for (const auto& thread : fs::directory_iterator{fmt::format("/proc/{}/task", process)}) {
-    std::string name = content(thread.path() / "comm");
+    std::string name = content_of(thread.path() / "comm");
     name = name.substr(0, name.find('\n'));
-    times[name] += 1e-9 * std::strtod(content(thread.path() / "schedstat").c_str(), nullptr);
+    times[name] += 1e-9 * std::strtod(content_of(thread.path() / "schedstat").c_str(), nullptr);
   }
   return times;
 }
@@ -163,7 +157,7 @@ std::uint64_t lost_by_recorder(const Program& recorder) {
 }
 
 WatchedRun measure(const WatchedBenchOptions& options, const Subject& subject, Watching watching) {
-  const bench::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string domain = std::to_string(options.domain);
   auto words = run_words(options);
   if (watching == Watching::recorded) {

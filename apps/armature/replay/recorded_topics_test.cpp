@@ -14,6 +14,7 @@
 
 #include "armature/recording/recorded_processes.hpp"
 #include "armature/recording/recording_test.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
@@ -227,12 +228,8 @@ TEST_F(RecordedTopicsTest, ALoopBeginsAgainWhereItBegan) {
 }
 
 TEST_F(RecordedTopicsTest, RefusesABeginningBehindItsEnd) {
-  try {
-    open({.from = seconds(3)});
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("is 1.99 s long: nothing is there from 3 s on"));
-  }
+  EXPECT_THAT(test::refusal_of([&] { open({.from = seconds(3)}); }),
+              HasSubstr("is 1.99 s long: nothing is there from 3 s on"));
 }
 
 TEST_F(RecordedTopicsTest, WhatIsRecordedByWriterAndReaderIsToldOnce) {

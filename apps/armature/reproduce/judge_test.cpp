@@ -8,8 +8,8 @@
 #include <limits>
 
 #include "armature/config/document.hpp"
-#include "armature/config/problems.hpp"
 #include "reproduce/report.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature::reproduce {
 namespace {
@@ -26,12 +26,7 @@ Declaration declared(const std::string& rows) {
 }
 
 std::string problems_of(const std::string& rows) {
-  try {
-    declared(rows);
-  } catch (const config::ConfigError& error) {
-    return error.what();
-  }
-  return "";
+  return test::refusal_of([&] { declared(rows); });
 }
 
 /// Judges one row with this value of ours; its fault, or "".

@@ -3,23 +3,14 @@
 
 #include <gmock/gmock.h>
 
-#include <stdexcept>
+#include "tests/refusal.hpp"
 
 namespace armature::sweep {
 namespace {
 
+using test::refusal_of;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-template <class Read>
-std::string refusal(Read read) {
-  try {
-    read();
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "";
-}
 
 TEST(Seeds, AreRangesAndNumbersInTheirOrder) {
   EXPECT_THAT(seeds_of("3"), ElementsAre(3u));
@@ -29,12 +20,12 @@ TEST(Seeds, AreRangesAndNumbersInTheirOrder) {
 }
 
 TEST(Seeds, ThatAreNoneAreRefusedWithTheReason) {
-  EXPECT_THAT(refusal([] { seeds_of("1...4"); }), HasSubstr("'.4' is no seed"));
-  EXPECT_THAT(refusal([] { seeds_of(""); }), HasSubstr("'' is no seed"));
-  EXPECT_THAT(refusal([] { seeds_of("-1"); }), HasSubstr("'-1' is no seed"));
-  EXPECT_THAT(refusal([] { seeds_of("5..3"); }), HasSubstr("'5..3' goes down"));
-  EXPECT_THAT(refusal([] { seeds_of("1..3,2"); }), HasSubstr("seed 2 is there twice"));
-  EXPECT_THAT(refusal([] { seeds_of("0..1000000"); }), HasSubstr("more than 1000000"));
+  EXPECT_THAT(refusal_of([] { seeds_of("1...4"); }), HasSubstr("'.4' is no seed"));
+  EXPECT_THAT(refusal_of([] { seeds_of(""); }), HasSubstr("'' is no seed"));
+  EXPECT_THAT(refusal_of([] { seeds_of("-1"); }), HasSubstr("'-1' is no seed"));
+  EXPECT_THAT(refusal_of([] { seeds_of("5..3"); }), HasSubstr("'5..3' goes down"));
+  EXPECT_THAT(refusal_of([] { seeds_of("1..3,2"); }), HasSubstr("seed 2 is there twice"));
+  EXPECT_THAT(refusal_of([] { seeds_of("0..1000000"); }), HasSubstr("more than 1000000"));
 }
 
 TEST(Variations, AreEveryCombinationAndALastKeyThatChangesFastest) {
@@ -45,20 +36,20 @@ TEST(Variations, AreEveryCombinationAndALastKeyThatChangesFastest) {
 }
 
 TEST(AssignmentsOfASweep, AreNotOfWhatItSetsItself) {
-  EXPECT_THAT(refusal([] { check_assignment("seed=7"); }),
+  EXPECT_THAT(refusal_of([] { check_assignment("seed=7"); }),
               HasSubstr("'seed=7': a sweep sets the seed itself; say which with --seeds 7"));
-  EXPECT_THAT(refusal([] { check_assignment("clock = system"); }),
+  EXPECT_THAT(refusal_of([] { check_assignment("clock = system"); }),
               HasSubstr("a sweep runs in lockstep on the simulated clock; leave it out"));
-  EXPECT_EQ(refusal([] { check_assignment("clock=simulated"); }), "");
-  EXPECT_EQ(refusal([] { check_assignment("components.head.params.seeds=1"); }), "");
+  EXPECT_EQ(refusal_of([] { check_assignment("clock=simulated"); }), "");
+  EXPECT_EQ(refusal_of([] { check_assignment("components.head.params.seeds=1"); }), "");
 }
 
 TEST(Variations, ThatAreNoneAreRefused) {
-  EXPECT_THAT(refusal([] { vary_of("a"); }), HasSubstr("'a' is not key=a,b,c"));
-  EXPECT_THAT(refusal([] { vary_of("=1"); }), HasSubstr("is not key=a,b,c"));
-  EXPECT_THAT(refusal([] { vary_of("a=1,1"); }), HasSubstr("a value twice"));
-  EXPECT_THAT(refusal([] { vary_of("seed=1,2"); }), HasSubstr("sets 'seed' itself"));
-  EXPECT_THAT(refusal([] {
+  EXPECT_THAT(refusal_of([] { vary_of("a"); }), HasSubstr("'a' is not key=a,b,c"));
+  EXPECT_THAT(refusal_of([] { vary_of("=1"); }), HasSubstr("is not key=a,b,c"));
+  EXPECT_THAT(refusal_of([] { vary_of("a=1,1"); }), HasSubstr("a value twice"));
+  EXPECT_THAT(refusal_of([] { vary_of("seed=1,2"); }), HasSubstr("sets 'seed' itself"));
+  EXPECT_THAT(refusal_of([] {
                 combinations({vary_of("a=1"), vary_of("a=2")});
               }),
               HasSubstr("'a' is varied twice"));

@@ -15,12 +15,12 @@
 #include "armature/robot/geometry/guided_chain.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/angles.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kPrinted = 1e-11;  // the figures have 12 digits
 
 const RobotModel& med7() {
@@ -97,9 +97,9 @@ TEST(DentalImplantArm, TheRobotFileHasTheLengthsLimitsAndSpeedsOfTheMed7) {
   EXPECT_EQ(joints[4].d, srs["d_ew"].number());
   EXPECT_EQ(joints[6].d, srs["d_wf"].number());
   for (std::size_t i = 0; i < 7; ++i) {
-    EXPECT_NEAR(joints[i].upper, srs["limits_deg"][i].number() * kDegree, 1e-15);
+    EXPECT_NEAR(joints[i].upper, srs["limits_deg"][i].number() * kRadPerDegree, 1e-15);
     EXPECT_EQ(joints[i].lower, -joints[i].upper);
-    EXPECT_NEAR(joints[i].max_velocity, srs["vmax_deg_s"][i].number() * kDegree, 1e-6);
+    EXPECT_NEAR(joints[i].max_velocity, srs["vmax_deg_s"][i].number() * kRadPerDegree, 1e-6);
     EXPECT_NEAR(joints[i].max_acceleration, 4 * joints[i].max_velocity, 2e-6);
   }
 }
@@ -108,7 +108,7 @@ TEST(DentalImplantArm, ForwardKinematicsGivesEveryReferencePose) {
   const Figures cases = dental_implant()["srs"]["cases"];
   ASSERT_EQ(cases.size(), 4U);
   for (std::size_t i = 0; i < cases.size(); ++i) {
-    const JointVector q = kDegree * cases[i]["q_deg"].numbers();
+    const JointVector q = kRadPerDegree * cases[i]["q_deg"].numbers();
     const Eigen::Isometry3d pose = forward_kinematics(med7(), q, *med7().find_frame("flange"));
     const Eigen::Isometry3d wanted = pose_of(cases[i]["R"], cases[i]["p"]);
     EXPECT_LE((pose.matrix() - wanted.matrix()).cwiseAbs().maxCoeff(), 1e-12);
@@ -130,7 +130,7 @@ TEST(DentalImplantArm, EveryBranchOfEveryPoseIsFoundUnderItsNameAtTheReferencesA
       EXPECT_LE(difference(branch.q, wanted[k]["q"].numbers()), 3 * kPrinted) << branch.label;
       EXPECT_EQ(branch.within_limits, wanted[k]["within_limits"].text() == "true") << branch.label;
     }
-    const JointVector q = kDegree * cases[i]["q_deg"].numbers();
+    const JointVector q = kRadPerDegree * cases[i]["q_deg"].numbers();
     EXPECT_LE(difference(branch_named(found, label_of(cases[i]["branch"])).q, q), 3 * kPrinted);
   }
 }
@@ -151,8 +151,8 @@ TEST(DentalImplantArm, EveryArmAngleIntervalOfTheReferenceIsFoundAndNoOther) {
       const Figures printed = wanted[k]["psi"];
       ASSERT_EQ(own.size(), printed.size()) << label;
       for (std::size_t n = 0; n < own.size(); ++n) {
-        EXPECT_NEAR(own[n].lower, printed[n][0].number() * kDegree, 1e-10) << label;
-        EXPECT_NEAR(own[n].upper, printed[n][1].number() * kDegree, 1e-10) << label;
+        EXPECT_NEAR(own[n].lower, printed[n][0].number() * kRadPerDegree, 1e-10) << label;
+        EXPECT_NEAR(own[n].upper, printed[n][1].number() * kRadPerDegree, 1e-10) << label;
       }
     }
   }

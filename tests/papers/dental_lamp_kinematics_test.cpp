@@ -5,6 +5,7 @@
 #include <random>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/values/angles.hpp"
 #include "paper_lamp.hpp"
 #include "reference_file.hpp"
 
@@ -141,17 +142,18 @@ TEST(DentalLamp, TheNineSearchPosesHaveTheReferencesJoints) {
   const Figures poses = dental_lamp()["face_search"]["poses"];
   ASSERT_EQ(poses.size(), 9u);
   for (std::size_t i = 0; i < poses.size(); ++i) {
-    const double yaw = poses[i]["yaw_deg"].number() * kDegree;
-    const double pitch = poses[i]["pitch_deg"].number() * kDegree;
+    const double yaw = poses[i]["yaw_deg"].number() * kRadPerDegree;
+    const double pitch = poses[i]["pitch_deg"].number() * kRadPerDegree;
     const Eigen::Vector3d direction{std::cos(pitch) * std::cos(yaw),
                                     std::cos(pitch) * std::sin(yaw), std::sin(pitch)};
     const Eigen::Vector3d joint6{0.798, 0, 0.505};
     EXPECT_LE((joint6 + 0.08 * direction - poses[i]["P7"].point_m()).norm(), 1e-7);
     const JointVector q = paper_lamp().joints(joint6 + 0.08 * direction, direction);
     EXPECT_LE((paper_lamp().all_joints(q) - poses[i]["q"].numbers()).cwiseAbs().maxCoeff(), 2e-8);
-    EXPECT_LE(
-        (paper_lamp().all_joints(q) / kDegree - poses[i]["q_deg"].numbers()).cwiseAbs().maxCoeff(),
-        1e-4);
+    EXPECT_LE((paper_lamp().all_joints(q) / kRadPerDegree - poses[i]["q_deg"].numbers())
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-4);
   }
 }
 

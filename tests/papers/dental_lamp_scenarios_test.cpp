@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/values/angles.hpp"
 #include "paper_lamp.hpp"
 
 namespace armature::paper {
@@ -44,7 +45,7 @@ class Scenarios {
  private:
   ToolPose looking(const Vector3d& mouth) {
     const Vector3d middle = direction_of(paper_lamp().P3);
-    const double lowest = std::cos(35 * kDegree);
+    const double lowest = std::cos(35 * kRadPerDegree);
     const double cosine = lowest + (1 - lowest) * 0.5 * (1 + even_(random_));
     const Vector3d aside = middle.unitOrthogonal();
     const Vector3d round = Eigen::AngleAxisd{M_PI * even_(random_), middle} * aside;
@@ -81,8 +82,9 @@ Outcome outcome_of(const Trajectory& plan, const Vector3d& mouth) {
     const Vector3d light = pose.linear().col(0);
     outcome.distance_mm =
         std::max(outcome.distance_mm, 1e3 * std::abs(to_mouth.norm() - LampExample::kDistance_m));
-    outcome.aim_deg = std::max(
-        outcome.aim_deg, std::atan2(light.cross(to_mouth).norm(), light.dot(to_mouth)) / kDegree);
+    outcome.aim_deg =
+        std::max(outcome.aim_deg,
+                 std::atan2(light.cross(to_mouth).norm(), light.dot(to_mouth)) / kRadPerDegree);
   }
   return outcome;
 }

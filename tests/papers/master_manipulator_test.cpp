@@ -11,12 +11,13 @@
 #include "armature/kinds/trajectory/trajectory_planner.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/angles.hpp"
 #include "reference_file.hpp"
 
 namespace armature::paper {
 namespace {
 
-constexpr double kDegree = M_PI / 180, kMillimetre = 1e-3;
+constexpr double kMillimetre = 1e-3;
 
 Figures reference() {
   static const config::Node file =
@@ -82,9 +83,9 @@ TEST(MasterManipulator, TheRobotFileHasTheModelsRows) {
   const Figures model = reference()["model"];
   const auto& rows = master().joints();
   for (std::size_t i = 0; i < 6; ++i) {
-    EXPECT_NEAR(rows[i].alpha, model["alpha_deg"][i].number() * kDegree, 1e-15);
+    EXPECT_NEAR(rows[i].alpha, model["alpha_deg"][i].number() * kRadPerDegree, 1e-15);
     EXPECT_EQ(rows[i].a, model["a"][i].number());
-    EXPECT_NEAR(rows[i].theta, model["theta_offset_deg"][i].number() * kDegree, 1e-15);
+    EXPECT_NEAR(rows[i].theta, model["theta_offset_deg"][i].number() * kRadPerDegree, 1e-15);
     EXPECT_EQ(rows[i].d, i == 2 ? model["l3"].number() * kMillimetre : 0);
   }
 }

@@ -6,7 +6,6 @@
 namespace armature::paper {
 
 using reproduce::direction_of;
-using reproduce::kDegree;
 using reproduce::LampExample;
 
 /// The lamp of configs/robots with the numbers of docs/papers/dental_lamp.yaml.

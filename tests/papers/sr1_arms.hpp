@@ -9,8 +9,6 @@
 
 namespace armature::paper {
 
-inline constexpr double kDegree = 0.017453292519943295;
-
 /// An arm and ik/puma_algebraic made for it, as a deployment loads it.
 struct SolvedArm {
   std::shared_ptr<const RobotModel> model;

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/values/angles.hpp"
 #include "sr1_arms.hpp"
 
 namespace armature::paper {
@@ -32,11 +33,11 @@ TEST(Sr1, TheRobotFileHasTheTableAndTheLimitsOfTheModel) {
   for (std::size_t i = 0; i < 6; ++i) {
     const Joint& joint = model->joints()[i];
     EXPECT_EQ(joint.a, table["a"][i].number());
-    EXPECT_NEAR(joint.alpha, table["alpha_deg"][i].number() * kDegree, 1e-15);
+    EXPECT_NEAR(joint.alpha, table["alpha_deg"][i].number() * kRadPerDegree, 1e-15);
     EXPECT_EQ(joint.d, i < 5 ? table["d"][i].number() : 0);
-    EXPECT_NEAR(joint.lower, table["limits_deg"][i][0].number() * kDegree, 1e-15);
-    EXPECT_NEAR(joint.upper, table["limits_deg"][i][1].number() * kDegree, 1e-15);
-    EXPECT_NEAR(joint.max_velocity, table["vmax_deg_s"][i].number() * kDegree, 1e-6);
+    EXPECT_NEAR(joint.lower, table["limits_deg"][i][0].number() * kRadPerDegree, 1e-15);
+    EXPECT_NEAR(joint.upper, table["limits_deg"][i][1].number() * kRadPerDegree, 1e-15);
+    EXPECT_NEAR(joint.max_velocity, table["vmax_deg_s"][i].number() * kRadPerDegree, 1e-6);
     EXPECT_NEAR(joint.max_acceleration, 4 * joint.max_velocity, 1e-5);
   }
   EXPECT_EQ(model->frame(model->tool()).parent_T_frame.translation().z(),
@@ -121,7 +122,8 @@ TEST(Sr1, TheStartOfThePlannedPathHasTheReferencesJointsInEveryBranch) {
   for (std::size_t i = 0; i < 8; ++i) {
     const Figures wanted = plan["branches"][i];
     EXPECT_EQ(found.branch[i].label, label_of(wanted["s1_s3_s5"]));
-    EXPECT_LE(wrapped_difference(found.branch[i].q, kDegree * wanted["q0_deg"].numbers()), 1e-10);
+    EXPECT_LE(wrapped_difference(found.branch[i].q, kRadPerDegree * wanted["q0_deg"].numbers()),
+              1e-10);
   }
 }
 

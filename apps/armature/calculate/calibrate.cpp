@@ -11,7 +11,6 @@
 #include <ctime>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -22,6 +21,7 @@
 #include "armature/calibration/recorded_poses.hpp"
 #include "armature/config/document.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/angles.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "readable_json.hpp"
@@ -33,12 +33,10 @@ namespace {
 using config::Node;
 using Json = nlohmann::ordered_json;
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 /// For people: four digits are enough.
 double rounded(double value) { return std::stod(fmt::format("{:.4g}", value)); }
 double mm(double m) { return rounded(1e3 * m); }
-double deg(double rad) { return rounded(rad / kDegree); }
+double deg(double rad) { return rounded(rad / kRadPerDegree); }
 
 Json list(const auto& vector) {
   Json numbers = Json::array();
@@ -231,7 +229,7 @@ int run_hand_eye_calibration(const CalibrationOptions& options) {
   const auto poses = read_hand_eye_poses(options.poses, robot ? &*robot : nullptr);
   HandEyeOptions how;
   if (!options.noise.empty()) {
-    how.noise = PoseNoise{1e-3 * options.noise[0], kDegree * options.noise[1]};
+    how.noise = PoseNoise{1e-3 * options.noise[0], kRadPerDegree * options.noise[1]};
   }
   const auto found = calibrate_hand_eye(poses, how);
   if (!found) refuse_poses(options, found.error());

@@ -6,8 +6,6 @@
 
 namespace armature::reproduce {
 
-inline constexpr double kDegree = 0.017453292519943295;
-
 /// Between two directions [rad].
 inline double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));

@@ -6,6 +6,7 @@
 
 #include "armature/robot/geometry/stereo_camera.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/values/angles.hpp"
 #include "reproduce/experiment.hpp"
 #include "reproduce/lamp_detection.hpp"
 #include "reproduce/lamp_example.hpp"
@@ -61,7 +62,7 @@ void add_points(const Numbers& numbers, LampExample& lamp, Results& results) {
     const JointVector q = lamp.all_joints(lamp.joints(points[k]));
     for (int i = 0; i < 6; ++i) results.value(table, theta(i) + "(" + name + ")", q[i]);
   }
-  results.value(table, "angle P0-P3 directions", angle_between(lamp.u0, -lamp.n) / kDegree);
+  results.value(table, "angle P0-P3 directions", angle_between(lamp.u0, -lamp.n) / kRadPerDegree);
 }
 
 /// (58) to (60): a piece of a second for each of the three moves.
@@ -104,9 +105,10 @@ void add_search(LampExample& lamp, Results& results) {
   };
   for (const auto& [name, heading_deg] :
        {View{"left", 40}, View{"middle", 0}, View{"right", -40}}) {
-    const double limit_mm = lamp.search_limit_mm(heading_deg * kDegree);
+    const double limit_mm = lamp.search_limit_mm(heading_deg * kRadPerDegree);
     results.value("search_limits", std::string{name} + " limit", limit_mm);
-    const Vector3d direction{std::cos(heading_deg * kDegree), std::sin(heading_deg * kDegree), 0};
+    const Vector3d direction{std::cos(heading_deg * kRadPerDegree),
+                             std::sin(heading_deg * kRadPerDegree), 0};
     const JointVector q =
         lamp.joints(Vector3d{1e-3 * limit_mm, 0, 0.50407} + 0.08 * direction, direction);
     std::vector<Eigen::Isometry3d> frames(lamp.model().joints().size());
@@ -199,12 +201,12 @@ void add_simulation(const Numbers& numbers, LampExample& lamp, Results& results)
                 (right_eye - seen_mouth).cross(left_eye - seen_mouth).normalized());
   const Numbers test = numbers["simulation"];
   const JointVector start =
-      lamp.model().to_independent(kDegree * test["start_deg"].numbers()).value();
+      lamp.model().to_independent(kRadPerDegree * test["start_deg"].numbers()).value();
   results.point(table, "lamp at the start",
                 1e3 * forward_kinematics(lamp.model(), start).translation());
   const Vector3d mouth = test["mouth"].numbers(), lamp_at = test["lamp"].numbers();
   const Vector3d measured = test["mouth_measured"].numbers();
-  const Vector3d turns = kDegree * Vector3d{test["photo_deg"].numbers()};
+  const Vector3d turns = kRadPerDegree * Vector3d{test["photo_deg"].numbers()};
   const Eigen::Matrix3d photo = (Eigen::AngleAxisd{turns[0], Vector3d::UnitX()} *
                                  Eigen::AngleAxisd{turns[1], Vector3d::UnitY()} *
                                  Eigen::AngleAxisd{turns[2], Vector3d::UnitZ()})
@@ -216,7 +218,7 @@ void add_simulation(const Numbers& numbers, LampExample& lamp, Results& results)
   results.value(table, "normal deviation",
                 angle_between(test["normal_measured"].numbers().head<3>(),
                               test["normal"].numbers().head<3>()) /
-                    kDegree);
+                    kRadPerDegree);
   const JointVector goal =
       lamp.all_joints(lamp.joints(1e-3 * lamp_at, (mouth - lamp_at).normalized()));
   for (int i = 0; i < 6; ++i) results.value(table, "goal " + theta(i), goal[i]);

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/values/angles.hpp"
 #include "reproduce/results.hpp"
 
 namespace armature::reproduce {
@@ -126,7 +127,7 @@ JointSegment LampExample::arc_segment(const ToolPose& from, const ToolPose& to, 
 LampExample::Standing LampExample::standing_at(const JointVector& q) const {
   const Eigen::Isometry3d pose = forward_kinematics(model_, q);
   const Vector3d to_mouth = mouth - pose.translation();
-  return {1e3 * to_mouth.norm(), angle_between(pose.linear().col(0), to_mouth) / kDegree};
+  return {1e3 * to_mouth.norm(), angle_between(pose.linear().col(0), to_mouth) / kRadPerDegree};
 }
 
 LampExample::Largest LampExample::largest_errors(const Trajectory& trajectory, double from_s,
@@ -150,7 +151,7 @@ double LampExample::search_limit_mm(double heading) {
   for (int i = 0; i < 60; ++i) {
     const double x = 0.5 * (near + far);
     const Vector3d lamp_at = Vector3d{x, 0, kLevel_m} + 0.08 * direction;
-    (joints(lamp_at, direction)[0] > 90 * kDegree ? near : far) = x;
+    (joints(lamp_at, direction)[0] > 90 * kRadPerDegree ? near : far) = x;
   }
   return 1e3 * near;
 }

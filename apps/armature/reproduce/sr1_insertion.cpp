@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/values/angles.hpp"
 #include "reproduce/angles.hpp"
 #include "reproduce/results.hpp"
 #include "reproduce/sr1_arm.hpp"
@@ -40,7 +41,7 @@ struct Track {
     const Vector3d from_entry = base_T_tool.translation() - plan.entry;
     past_entry_mm.push_back(1e3 * from_entry.dot(plan.along));
     off_mm.push_back(1e3 * from_entry.cross(plan.along).norm());
-    tilt_deg.push_back(angle_between(base_T_tool.linear().col(2), plan.along) / kDegree);
+    tilt_deg.push_back(angle_between(base_T_tool.linear().col(2), plan.along) / kRadPerDegree);
   }
   double max_off_mm() const { return std::ranges::max(off_mm); }
   double max_tilt_deg() const { return std::ranges::max(tilt_deg); }
@@ -131,7 +132,7 @@ void add_interpolated(const Insertion& plan, const RobotModel& model, const IkBr
     const std::string name = label.substr(0, label.rfind('/')) + ", joints interpolated";
     results.value("insertion_line", name + ": off the line", track.max_off_mm());
     results.value("insertion_line", name + ": tilt", track.max_tilt_deg());
-    results.value("insertion_line", name + ": turn", largest_turn(from, to) / kDegree);
+    results.value("insertion_line", name + ": turn", largest_turn(from, to) / kRadPerDegree);
     add_curves("6R " + name, track, Results::Look::line, results);
   }
 }

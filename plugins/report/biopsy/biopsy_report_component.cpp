@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -20,6 +19,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/angles.hpp"
 #include "insertion_monitor.hpp"
 
 namespace armature::report::biopsy {
@@ -29,7 +29,6 @@ constexpr Duration kPeriod = seconds(0.02);
 constexpr double kMoves_m = 1e-4;              // more than the noise of a tip that rests
 constexpr Duration kRested = seconds(0.1);     // since the last motion
 constexpr Duration kLongestRamp = seconds(3);  // an arm in a hand need not rest
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 }  // namespace
 
@@ -79,9 +78,10 @@ class BiopsyReport final : public Component {
     }
     metric("line_deviation_mm", "farthest off the line inside [mm]", monitor_.line_deviation_m(),
            1e3);
-    metric("line_tilt_deg", "most tilted against it [deg]", monitor_.line_tilt_rad(), kDegrees);
+    metric("line_tilt_deg", "most tilted against it [deg]", monitor_.line_tilt_rad(),
+           kDegreesPerRad);
     metric("other_joints_deg", "most that a turning joint moved inside [deg]",
-           monitor_.turned_rad(), kDegrees);
+           monitor_.turned_rad(), kDegreesPerRad);
   }
 
  private:

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -15,6 +14,7 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/angles.hpp"
 
 namespace armature::report::images {
 
@@ -34,7 +34,6 @@ struct MarkerErrors {
 
 namespace {
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr double kSame = 0.003;  // [m] farther off it is another thing
 
 MarkerErrors errors_of(const msg::NeedlePlan& truth, const msg::ImageMarkers& markers) {
@@ -95,7 +94,7 @@ class ImagesReport final : public Component {
     }
     summary.metric("way_length_mm", "its length [mm]", 1e3 * best.length_());
     summary.metric("skull_angle_deg", "its angle to the skull's normal [deg]",
-                   kDegrees * best.skull_angle_());
+                   kDegreesPerRad * best.skull_angle_());
   }
 
   void write_files(const std::filesystem::path& directory) const override {
@@ -104,10 +103,11 @@ class ImagesReport final : public Component {
         "entry_x_mm,entry_y_mm,entry_z_mm,length_mm,vessel_distance_mm,skull_angle_deg,cost,"
         "reason\n";
     for (const msg::NeedleWay& way : told_->ways_()) {
-      table += fmt::format(
-          "{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f},\"{}\"\n", 1e3 * way.entry_().x_(),
-          1e3 * way.entry_().y_(), 1e3 * way.entry_().z_(), 1e3 * way.length_(),
-          1e3 * way.vessel_distance_(), kDegrees * way.skull_angle_(), way.cost_(), way.reason_());
+      table +=
+          fmt::format("{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.2f},{:.3f},\"{}\"\n",
+                      1e3 * way.entry_().x_(), 1e3 * way.entry_().y_(), 1e3 * way.entry_().z_(),
+                      1e3 * way.length_(), 1e3 * way.vessel_distance_(),
+                      kDegreesPerRad * way.skull_angle_(), way.cost_(), way.reason_());
     }
     write_atomically(directory / "needle_ways.csv", table);
   }

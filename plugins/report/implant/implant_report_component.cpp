@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <utility>
@@ -25,6 +24,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/angles.hpp"
 #include "bore_monitor.hpp"
 #include "drill_error.hpp"
 #include "planned_turn.hpp"
@@ -37,7 +37,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr Duration kPeriod = seconds(0.02);
-constexpr double kDegrees = 180 / std::numbers::pi, kMillimetres = 1e3;
+constexpr double kMillimetres = 1e3;
 
 double rms(const std::vector<Vector3d>& errors) {
   double sum = 0;
@@ -285,20 +285,21 @@ class ImplantReport final : public Component {
     summary.series("site_errors_mm", "error of the tip at each site [mm]", std::move(each_mm));
     summary.metric("site_error_mm", "  at the worst [mm]", worst_mm);
     millimetres("site_error_rms_mm", "  rms over the sites [mm]", rms(errors));
-    summary.metric("site_angle_deg", "  angle of the drill at the worst [deg]", kDegrees * angle);
+    summary.metric("site_angle_deg", "  angle of the drill at the worst [deg]",
+                   kDegreesPerRad * angle);
     millimetres("registration_error_mm", "  by the registration, rms [mm]", rms(registration));
     millimetres("hand_eye_error_mm", "  by the hand-eye calibration [mm]", rms(hand_eye));
     millimetres("tool_error_mm", "  by the tool calibration [mm]", rms(tool));
     millimetres("tracker_error_mm", "  by the tracker [mm]", rms(tracker));
     millimetres("unexplained_error_mm", "  not explained, worst [mm]", unexplained);
     millimetres("line_deviation_mm", "farthest off the registered axis inside [mm]", off);
-    summary.metric("line_tilt_deg", "most tilted against it [deg]", kDegrees * tilt);
+    summary.metric("line_tilt_deg", "most tilted against it [deg]", kDegreesPerRad * tilt);
   }
 
   void tell_smoothness(Summary& summary) const {
     tell_planned_turn(summary);
     const auto degrees = [&](const char* key, const char* title, double radians) {
-      summary.metric(key, title, kDegrees * radians);
+      summary.metric(key, title, kDegreesPerRad * radians);
     };
     degrees("total_rotation_deg", "total rotation through the sites [deg]",
             smoothness_.total_rad());
@@ -317,7 +318,8 @@ class ImplantReport final : public Component {
     summary.does_not_apply(
         kJump, kTitle,
         fmt::format("the drill turned by {:.2g} degrees in all, 'min_turn_deg' is {:g}",
-                    kDegrees * smoothness_.total_rad(), kDegrees * parameters_.min_turn));
+                    kDegreesPerRad * smoothness_.total_rad(),
+                    kDegreesPerRad * parameters_.min_turn));
   }
 
   void tell_planned_turn(Summary& summary) const {
@@ -332,7 +334,7 @@ class ImplantReport final : public Component {
           kKey, kTitle,
           fmt::format("the ways through key poses turn by {:.2g} degrees at most, 'min_turn_deg' "
                       "is {:g}",
-                      kDegrees * planned_turn_, kDegrees * parameters_.min_turn));
+                      kDegreesPerRad * planned_turn_, kDegreesPerRad * parameters_.min_turn));
     }
     summary.not_measured(kKey, kTitle,
                          keyed_path_seen_ ? "no key pose has three samples on both sides"

@@ -5,14 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "armature/values/angles.hpp"
 
 namespace armature::report::lamp_alignment {
 namespace {
 
 constexpr double kStillPosition = 1e-6;  // [m] a truth that differs by less has not moved
 constexpr double kStillAngle = 1e-6;     // [rad]
-constexpr double kMillimetre = 1e-3, kDegree = std::numbers::pi / 180;
+constexpr double kMillimetre = 1e-3;
 
 double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -75,7 +76,9 @@ std::array<AlignmentCheck, 2> AlignmentMonitor::estimate_checks() const {
       {.name = "mouth_position_error_mm",
        .limit = parameters_.mouth_position_error,
        .unit = kMillimetre},
-      {.name = "face_normal_error_deg", .limit = parameters_.face_normal_error, .unit = kDegree},
+      {.name = "face_normal_error_deg",
+       .limit = parameters_.face_normal_error,
+       .unit = kRadPerDegree},
   }};
   if (const auto error = estimate_error()) {
     checks[0].value = error->mouth.norm();
@@ -87,7 +90,7 @@ std::array<AlignmentCheck, 2> AlignmentMonitor::estimate_checks() const {
 std::array<AlignmentCheck, 2> AlignmentMonitor::lamp_checks() const {
   std::array<AlignmentCheck, 2> checks{{
       {.name = "distance_error_mm", .limit = parameters_.distance_error, .unit = kMillimetre},
-      {.name = "direction_error_deg", .limit = parameters_.direction_error, .unit = kDegree},
+      {.name = "direction_error_deg", .limit = parameters_.direction_error, .unit = kRadPerDegree},
   }};
   if (!lamp_errors_.empty()) {
     checks[0].value = lamp_errors_.back().distance_error_m;

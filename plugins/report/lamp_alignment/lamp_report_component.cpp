@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
-#include <numbers>
 #include <optional>
 #include <string>
 
@@ -16,6 +15,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/angles.hpp"
 #include "error_table.hpp"
 #include "following_monitor.hpp"
 #include "report_pictures.hpp"
@@ -27,7 +27,6 @@ namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
 constexpr double kAtRest = 1e-7;  // [rad] between two samples of the arm
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 }  // namespace
 
@@ -88,7 +87,8 @@ class LampReport : public Component {
       const Eigen::Vector3d mouth_mm = 1000 * error->mouth;
       summary.series("mouth_error_mm", "  along x, y and z of the base [mm]",
                      {mouth_mm.x(), mouth_mm.y(), mouth_mm.z()});
-      metric("face_normal_error_deg", "face normal error [deg]", kDegrees * error->normal_rad);
+      metric("face_normal_error_deg", "face normal error [deg]",
+             kDegreesPerRad * error->normal_rad);
     }
     if (!monitor_.lamp_errors().empty()) {
       const LampError& last = monitor_.lamp_errors().back();
@@ -96,14 +96,15 @@ class LampReport : public Component {
       if (const auto error = last.distance_error_m) {
         metric("distance_error_mm", "its error [mm]", 1000 * *error);
       }
-      metric("direction_error_deg", "direction error [deg]", kDegrees * last.direction_error_rad);
+      metric("direction_error_deg", "direction error [deg]",
+             kDegreesPerRad * last.direction_error_rad);
     }
     if (const auto& off = following_.worst()) {
       metric("following_spot_mm", "light off the mouth while the patient moves, at the worst [mm]",
              1000 * off->spot_m);
       metric("following_distance_mm", "  lamp off its distance [mm]", 1000 * off->distance_m);
       metric("following_angle_deg", "  light off the face's normal [deg]",
-             kDegrees * off->angle_rad);
+             kDegreesPerRad * off->angle_rad);
     }
     tell_pixels(summary);
     metric("replans", "goals after the first alignment", monitor_.replans());

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
 #include "armature/runtime/reporting/write_atomically.hpp"
+#include "armature/values/angles.hpp"
 #include "png_encoder.hpp"
 
 namespace armature::report::lamp_alignment {
@@ -135,7 +135,6 @@ void write_camera_picture(const CameraPicture& picture, const std::filesystem::p
 
 void write_error_plot(std::span<const LampError> errors, const Parameters& parameters,
                       const std::filesystem::path& file) {
-  constexpr double kDegrees = 180 / std::numbers::pi;
   cv::Mat image(760, 1000, CV_8UC3, cv::Scalar{255, 255, 255});
   const double duration_s = errors.empty() ? 1 : std::max(1.0, errors.back().time_s);
   const auto distance_mm = [](const LampError& e) -> std::optional<double> {
@@ -143,7 +142,7 @@ void write_error_plot(std::span<const LampError> errors, const Parameters& param
     return 1000 * *e.distance_error_m;
   };
   const auto direction_deg = [](const LampError& e) {
-    return std::optional{kDegrees * e.direction_error_rad};
+    return std::optional{kDegreesPerRad * e.direction_error_rad};
   };
   const Panel distance{{70, 40, 900, 280},
                        "distance error [mm]; red: goal",
@@ -154,7 +153,7 @@ void write_error_plot(std::span<const LampError> errors, const Parameters& param
   const Panel direction{{70, 415, 900, 280},
                         "direction error [deg]; red: goal",
                         duration_s,
-                        kDegrees * parameters.direction_error,
+                        kDegreesPerRad * parameters.direction_error,
                         errors,
                         direction_deg};
   distance.draw_axes(image);

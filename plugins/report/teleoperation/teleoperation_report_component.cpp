@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,13 +15,13 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/angles.hpp"
 #include "follow_monitor.hpp"
 
 namespace armature::report::teleoperation {
 namespace {
 
 constexpr Duration kPeriod = seconds(0.02);
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 Parameters parameters_of(const Params& params, const RobotModel& robot) {
   const Parameters parameters = Parameters::read(params);
@@ -92,7 +91,7 @@ class TeleoperationReport final : public Component {
       metric("time_to_align_s", "time to align [s]", to_seconds(*aligned_at_ - *start_));
       if (const auto& off = alignment_error_) {
         metric("alignment_error_mm", "leader off the instrument [mm]", off->position_m, 1e3);
-        metric("alignment_error_deg", "its rotation [deg]", off->angle_rad, kDegrees);
+        metric("alignment_error_deg", "its rotation [deg]", off->angle_rad, kDegreesPerRad);
       }
       metric("peak_speed_error_percent", "peak joint speeds off the reference [%]",
              alignment_.peak_speed_error(parameters_.peak_speeds), 100);

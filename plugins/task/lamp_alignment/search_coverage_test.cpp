@@ -7,10 +7,10 @@
 #include <gtest/gtest.h>
 
 #include <ctime>
-#include <numbers>
 #include <numeric>
 #include <random>
 
+#include "armature/values/angles.hpp"
 #include "armature/values/sanitizer.hpp"
 #include "search_poses.hpp"
 
@@ -18,8 +18,6 @@ namespace armature::task::lamp_alignment {
 namespace {
 
 using testing::HasSubstr, testing::StartsWith;
-
-constexpr double kDegrees = std::numbers::pi / 180;
 
 const RobotModel& lamp() {
   static const RobotModel model =
@@ -45,7 +43,7 @@ SearchCoverage level_view(const Parameters& parameters = {}) {
 
 Parameters wide_search() {
   Parameters parameters;
-  parameters.search_pitch = {40 * kDegrees, 0, -40 * kDegrees};
+  parameters.search_pitch = {40 * kRadPerDegree, 0, -40 * kRadPerDegree};
   return parameters;
 }
 
@@ -73,14 +71,15 @@ TEST(SearchCoverage, AFaceMayLookPastTheLampByTheDetectorsAngle) {
   // Each camera is 60 mm aside of the axis, 3.4 degrees at a metre.
   for (const double sign : {-1, 1}) {
     const auto turned = [&](double degrees) {
-      return level_view().sight_of({.mouth = {1, 0, 0.5}, .tilt_side = sign * degrees * kDegrees});
+      return level_view().sight_of(
+          {.mouth = {1, 0, 0.5}, .tilt_side = sign * degrees * kRadPerDegree});
     };
     EXPECT_EQ(turned(31), Sight::seen);
     EXPECT_EQ(turned(33), Sight::turned_away);
     EXPECT_EQ(turned(170), Sight::turned_away);
-    EXPECT_EQ(level_view().sight_of({.mouth = {1, 0, 0.5}, .tilt_up = sign * 32 * kDegrees}),
+    EXPECT_EQ(level_view().sight_of({.mouth = {1, 0, 0.5}, .tilt_up = sign * 32 * kRadPerDegree}),
               Sight::seen);
-    EXPECT_EQ(level_view().sight_of({.mouth = {1, 0, 0.5}, .tilt_up = sign * 38 * kDegrees}),
+    EXPECT_EQ(level_view().sight_of({.mouth = {1, 0, 0.5}, .tilt_up = sign * 38 * kRadPerDegree}),
               Sight::turned_away);
   }
 }
@@ -98,7 +97,7 @@ TEST(SearchCoverage, OfEveryRigIsThatOfTheRunsOfWholeLamps) {
   const auto sight = [](const SearchCoverage& search, const Eigen::Vector3d& mouth, double up_deg,
                         double side_deg) {
     return search.sight_of(
-        {.mouth = mouth, .tilt_up = up_deg * kDegrees, .tilt_side = side_deg * kDegrees});
+        {.mouth = mouth, .tilt_up = up_deg * kRadPerDegree, .tilt_side = side_deg * kRadPerDegree});
   };
   const SearchCoverage narrow = coverage("default"), paper = coverage("paper", paper_search()),
                        wide = coverage("wide", wide_search());
@@ -112,13 +111,13 @@ TEST(SearchCoverage, OfEveryRigIsThatOfTheRunsOfWholeLamps) {
 
 TEST(SearchCoverage, OfTheWideCamerasHasHighAndLowFacesThatThoseOfTheDefaultRigHaveNotWhole) {
   const SearchCoverage wide = coverage("wide", wide_search()), narrow = coverage("default");
-  for (const Face& face : {Face{.mouth = {1.35, 0, 1.0}, .tilt_up = -40 * kDegrees},
-                           Face{.mouth = {1.2, 0, 0}, .tilt_up = 35 * kDegrees},
-                           Face{.mouth = {1.2, -0.3, 0.1}, .tilt_up = 40 * kDegrees}}) {
+  for (const Face& face : {Face{.mouth = {1.35, 0, 1.0}, .tilt_up = -40 * kRadPerDegree},
+                           Face{.mouth = {1.2, 0, 0}, .tilt_up = 35 * kRadPerDegree},
+                           Face{.mouth = {1.2, -0.3, 0.1}, .tilt_up = 40 * kRadPerDegree}}) {
     EXPECT_EQ(wide.sight_of(face), Sight::seen) << face.mouth.transpose();
     EXPECT_NE(narrow.sight_of(face), Sight::seen) << face.mouth.transpose();
   }
-  const Face high_aside{.mouth = {1.3, 0.3, 0.9}, .tilt_up = -40 * kDegrees};
+  const Face high_aside{.mouth = {1.3, 0.3, 0.9}, .tilt_up = -40 * kRadPerDegree};
   EXPECT_EQ(wide.sight_of(high_aside), Sight::seen);
   EXPECT_EQ(narrow.sight_of(high_aside), Sight::seen);
 }
@@ -129,9 +128,9 @@ TEST(SearchCoverage, MoreViewsAWiderAngleAndSmallerFacesNeverSeeLess) {
   std::mt19937 random{kSeed};
   std::uniform_real_distribution<double> one{-1, 1};
   Parameters more;
-  more.search_yaw.push_back(60 * kDegrees);
+  more.search_yaw.push_back(60 * kRadPerDegree);
   Parameters wider;
-  wider.max_face_angle = 45 * kDegrees;
+  wider.max_face_angle = 45 * kRadPerDegree;
   Parameters smaller;
   smaller.min_face = 40;
   const SearchCoverage plain = coverage("default");

@@ -3,21 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/values/angles.hpp"
 #include "bench/random_joints.hpp"
 
 namespace armature::bench {
 namespace {
 
 JointVector next_to(const RobotModel& model, const JointVector& q, std::mt19937_64& random) {
-  constexpr double kDegrees = std::numbers::pi / 180;
   JointVector near = q;
   for (int i = 0; i < model.dof(); ++i) {
     const auto [lower, upper] = range(model, i);
-    const double most = model.is_revolute(i) ? 5 * kDegrees : 0.025 * (upper - lower);
+    const double most = model.is_revolute(i) ? 5 * kRadPerDegree : 0.025 * (upper - lower);
     near[i] = std::clamp(q[i] + (2 * unit(random) - 1) * most, lower, upper);
   }
   return near;

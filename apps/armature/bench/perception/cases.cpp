@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "armature/scene/splitmix.hpp"
+#include "armature/values/angles.hpp"
 #include "bench/perception/groups.hpp"
 
 namespace armature::bench {
@@ -38,9 +39,9 @@ DrawnCase usual_case(const StereoCamera& camera, Draw& draw) {
   one.distance_m = draw.between(0.5, 0.7);
   one.aside_m = draw.between(-0.06, 0.06);
   one.below_m = draw.between(-0.01, 0.05);
-  one.yaw = draw.between(-12, 12) * kDegree;
-  one.pitch = draw.between(-12, 12) * kDegree;
-  one.roll = draw.between(-6, 6) * kDegree;
+  one.yaw = draw.between(-12, 12) * kRadPerDegree;
+  one.pitch = draw.between(-12, 12) * kRadPerDegree;
+  one.roll = draw.between(-6, 6) * kRadPerDegree;
   return one;
 }
 
@@ -52,8 +53,8 @@ struct Motion {
   DrawnCase at(DrawnCase one, double t_s) const {
     one.aside_m += 0.04 * std::sin(0.9 * t_s + phases[0]);
     one.distance_m += 0.03 * std::sin(0.7 * t_s + phases[1]);
-    one.yaw += 10 * kDegree * std::sin(1.1 * t_s + phases[2]);
-    one.pitch += 6 * kDegree * std::sin(1.3 * t_s + phases[3]);
+    one.yaw += 10 * kRadPerDegree * std::sin(1.1 * t_s + phases[2]);
+    one.pitch += 6 * kRadPerDegree * std::sin(1.3 * t_s + phases[3]);
     return one;
   }
   double phases[4];

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "armature/scene/face_traits.hpp"
+#include "armature/values/angles.hpp"
 #include "bench/perception/groups.hpp"
 
 namespace armature::bench {
@@ -72,7 +73,7 @@ TEST(PerceptionCases, AreWhatTheNameOfTheirGroupSays) {
   const auto groups = by_group(640);
   for (const auto& one : groups.at("yaw 30 to 45 deg")) {
     const Eigen::Vector3d forward = one.left_T_face.linear().col(2);
-    const double yaw = std::abs(std::atan2(forward.x(), forward.z())) / kDegree;
+    const double yaw = std::abs(std::atan2(forward.x(), forward.z())) / kRadPerDegree;
     EXPECT_GE(yaw, 29);
     EXPECT_LE(yaw, 46);
   }

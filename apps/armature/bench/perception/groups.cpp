@@ -4,6 +4,7 @@
 #include <array>
 
 #include "armature/scene/face_traits.hpp"
+#include "armature/values/angles.hpp"
 
 namespace armature::bench {
 namespace {
@@ -50,7 +51,7 @@ void wear(DrawnCase& one, Draw& draw) {
 }
 void darken_right(DrawnCase& one, Draw& draw) { one.drawn.right.gain = draw.between(0.5, 0.8); }
 void roll_right(DrawnCase& one, Draw& draw) {
-  one.drawn.right.roll = draw.either_side(0.2, 1) * kDegree;
+  one.drawn.right.roll = draw.either_side(0.2, 1) * kRadPerDegree;
 }
 void leave(DrawnCase&, Draw&) {}
 
@@ -58,16 +59,21 @@ constexpr std::array kGroups{
     CaseGroup{"frontal", leave},
     CaseGroup{"with glasses", wear<FaceWears::glasses>},
     CaseGroup{"with a beard", wear<FaceWears::beard>},
-    CaseGroup{"yaw 15 to 30 deg",
-              [](DrawnCase& one, Draw& draw) { one.yaw = draw.either_side(15, 30) * kDegree; }},
-    CaseGroup{"yaw 30 to 45 deg",
-              [](DrawnCase& one, Draw& draw) { one.yaw = draw.either_side(30, 45) * kDegree; }},
-    CaseGroup{"pitch 15 to 30 deg",
-              [](DrawnCase& one, Draw& draw) { one.pitch = draw.either_side(15, 30) * kDegree; }},
-    CaseGroup{"pitch 30 to 45 deg",
-              [](DrawnCase& one, Draw& draw) { one.pitch = draw.either_side(30, 45) * kDegree; }},
-    CaseGroup{"roll 10 to 30 deg",
-              [](DrawnCase& one, Draw& draw) { one.roll = draw.either_side(10, 30) * kDegree; }},
+    CaseGroup{
+        "yaw 15 to 30 deg",
+        [](DrawnCase& one, Draw& draw) { one.yaw = draw.either_side(15, 30) * kRadPerDegree; }},
+    CaseGroup{
+        "yaw 30 to 45 deg",
+        [](DrawnCase& one, Draw& draw) { one.yaw = draw.either_side(30, 45) * kRadPerDegree; }},
+    CaseGroup{
+        "pitch 15 to 30 deg",
+        [](DrawnCase& one, Draw& draw) { one.pitch = draw.either_side(15, 30) * kRadPerDegree; }},
+    CaseGroup{
+        "pitch 30 to 45 deg",
+        [](DrawnCase& one, Draw& draw) { one.pitch = draw.either_side(30, 45) * kRadPerDegree; }},
+    CaseGroup{
+        "roll 10 to 30 deg",
+        [](DrawnCase& one, Draw& draw) { one.roll = draw.either_side(10, 30) * kRadPerDegree; }},
     CaseGroup{"distance 400 to 500 mm",
               [](DrawnCase& one, Draw& draw) { one.distance_m = draw.between(0.4, 0.5); }},
     CaseGroup{"distance 700 to 1200 mm",

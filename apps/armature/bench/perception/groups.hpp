@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <numbers>
 #include <random>
 #include <span>
 #include <string_view>
@@ -54,7 +53,5 @@ struct CaseGroup {
 inline constexpr int kSoundPairs = 3;  // of a sequence, before something begins
 
 std::span<const CaseGroup> case_groups();
-
-inline constexpr double kDegree = std::numbers::pi / 180;
 
 }  // namespace armature::bench

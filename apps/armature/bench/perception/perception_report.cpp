@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
+#include "armature/values/angles.hpp"
 #include "armature/values/json_text.hpp"
 #include "bench/statistics.hpp"
 #include "csv_field.hpp"
@@ -16,7 +16,6 @@
 namespace armature::bench {
 namespace {
 
-constexpr double kPerDegree = std::numbers::pi / 180;
 constexpr const char* kAll = "all";
 
 /// The row of the results that `counts` takes.
@@ -122,8 +121,8 @@ std::string table(const PerceptionReport& report) {
   for (const PerceptionRow& row : report.rows) {
     text += fmt::format("{:<{}}  {:>5}  {:>5.0f} %  {:>7}  {:>5}  {}  {}  {}\n", row.group, width,
                         row.pairs, 100.0 * row.detected / std::max(row.pairs, 1), row.refused,
-                        row.wrong, text_of(row.normal_rad, kPerDegree), text_of(row.mouth_m, 1e-3),
-                        text_of(row.stereo_only_mouth_m, 1e-3));
+                        row.wrong, text_of(row.normal_rad, kRadPerDegree),
+                        text_of(row.mouth_m, 1e-3), text_of(row.stereo_only_mouth_m, 1e-3));
   }
   text += fmt::format(
       "\n{}, {}, {} as {} has them, rig '{}', seed {}\n"
@@ -133,7 +132,7 @@ std::string table(const PerceptionReport& report) {
       "the normal more than {:g} deg from what was drawn, and the estimate says that it is "
       "valid\n\n",
       report.detector, report.landmarks, report.face_pose, report.deployment, report.rig,
-      report.seed, kMaxMouthError_m * 1e3, kMaxNormalError_rad / kPerDegree);
+      report.seed, kMaxMouthError_m * 1e3, kMaxNormalError_rad / kRadPerDegree);
   text += fmt::format("{:<34}  {:>5}  {:>14}\n", "time, median", "pairs", "of a full pass");
   for (const StageRow& row : report.stages) {
     text +=

@@ -12,6 +12,7 @@
 
 #include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/ik/ik.hpp"
+#include "armature/kinds/ik/test_goals.hpp"
 #include "armature/robot/geometry/guided_chain.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
@@ -73,14 +74,6 @@ const IkBranch& branch_named(const IkBranches& found, const std::string& label) 
   return *std::ranges::find(found, label, &IkBranch::label);
 }
 
-double difference(const JointVector& a, const JointVector& b) {
-  double largest = 0;
-  for (Eigen::Index i = 0; i < a.size(); ++i) {
-    largest = std::max(largest, std::abs(wrap_angle(a[i] - b[i])));
-  }
-  return largest;
-}
-
 IkBranches solve(const IkGoal& goal, const JointVector& seed,
                  const std::string& objective = "limits") {
   IkBranches found;
@@ -127,11 +120,13 @@ TEST(DentalImplantArm, EveryBranchOfEveryPoseIsFoundUnderItsNameAtTheReferencesA
     ASSERT_EQ(static_cast<std::size_t>(found.count), wanted.size());
     for (std::size_t k = 0; k < wanted.size(); ++k) {
       const IkBranch& branch = branch_named(found, label_of(wanted[k]["g4_g2_g6"]));
-      EXPECT_LE(difference(branch.q, wanted[k]["q"].numbers()), 3 * kPrinted) << branch.label;
+      EXPECT_LE(test::joint_distance(branch.q, wanted[k]["q"].numbers()), 3 * kPrinted)
+          << branch.label;
       EXPECT_EQ(branch.within_limits, wanted[k]["within_limits"].text() == "true") << branch.label;
     }
     const JointVector q = kRadPerDegree * cases[i]["q_deg"].numbers();
-    EXPECT_LE(difference(branch_named(found, label_of(cases[i]["branch"])).q, q), 3 * kPrinted);
+    EXPECT_LE(test::joint_distance(branch_named(found, label_of(cases[i]["branch"])).q, q),
+              3 * kPrinted);
   }
 }
 
@@ -186,7 +181,7 @@ TEST(DentalImplantArm, TheBestOfAllBranchesIsTheReferencesOptimum) {
     EXPECT_NEAR(balanced_cost(least->q), best["H"].number(), kPrinted);
     // A flat bottom: the reference knows its place to the root of 1e-16.
     EXPECT_NEAR(least->redundancy, best["psi"].number(), 1e-7);
-    EXPECT_LE(difference(least->q, best["q"].numbers()), 1e-7);
+    EXPECT_LE(test::joint_distance(least->q, best["q"].numbers()), 1e-7);
   }
 }
 
@@ -212,7 +207,7 @@ TEST(DentalImplantArm, TheDrillComesToTheImplantThroughTheChainOfFrames) {
   goal.redundancy = solver("limits").redundancy_of(q);
   double nearest = 10;
   for (const IkBranch& branch : solve(goal, *med7().home())) {
-    nearest = std::min(nearest, difference(branch.q, q));
+    nearest = std::min(nearest, test::joint_distance(branch.q, q));
   }
   EXPECT_LE(nearest, 1e-10);
 }

@@ -4,6 +4,7 @@
 
 #include <random>
 
+#include "armature/kinds/ik/test_goals.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/values/angles.hpp"
 #include "paper_lamp.hpp"
@@ -11,14 +12,6 @@
 
 namespace armature::paper {
 namespace {
-
-double wrapped_difference(const JointVector& a, const JointVector& b) {
-  double largest = 0;
-  for (Eigen::Index i = 0; i < a.size(); ++i) {
-    largest = std::max(largest, std::abs(wrap_angle(a[i] - b[i])));
-  }
-  return largest;
-}
 
 JointVector contracted(const Eigen::VectorXd& all) {
   return paper_lamp().model().to_independent(all).value();
@@ -79,7 +72,7 @@ void expect_solutions(const Figures& row, double tolerance) {
                               std::to_string(static_cast<int>(bits[2]));
     EXPECT_EQ(found.branch[i].label, label);
     EXPECT_LE(
-        wrapped_difference(paper_lamp().all_joints(found.branch[i].q), wanted[i]["q"].numbers()),
+        test::joint_distance(paper_lamp().all_joints(found.branch[i].q), wanted[i]["q"].numbers()),
         tolerance)
         << label << ": " << paper_lamp().all_joints(found.branch[i].q).transpose();
     EXPECT_LE(found.branch[i].residual.position_m, 1e-9);
@@ -129,7 +122,7 @@ TEST(DentalLamp, NumericAndClosedFormAgreeNearTheWork) {
     const IkBranches closed = paper_lamp().branches(goal.pose.position, pose.linear().col(0));
     double nearest = 1;
     for (const IkBranch& branch : closed) {
-      nearest = std::min(nearest, wrapped_difference(branch.q, numeric.begin()->q));
+      nearest = std::min(nearest, test::joint_distance(branch.q, numeric.begin()->q));
     }
     EXPECT_LE(nearest, 1e-6);
     EXPECT_LE(numeric.begin()->residual.position_m, 1e-9);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sr1_arms.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -68,14 +66,6 @@ std::string label_of(const Figures& signs) {
   const Eigen::VectorXd s = signs.numbers();
   const auto digit = [&](Eigen::Index i) { return s[i] > 0 ? "0" : "1"; };
   return std::string{"shoulder"} + digit(0) + "/elbow" + digit(1) + "/wrist" + digit(2);
-}
-
-double wrapped_difference(const JointVector& a, const JointVector& b) {
-  double largest = 0;
-  for (Eigen::Index i = 0; i < a.size(); ++i) {
-    largest = std::max(largest, std::abs(wrap_angle(a[i] - b[i])));
-  }
-  return largest;
 }
 
 }  // namespace armature::paper

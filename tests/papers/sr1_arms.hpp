@@ -34,7 +34,5 @@ Eigen::Isometry3d pose_of(const Figures& rows);
 IkGoal goal_of(const Eigen::Isometry3d& base_T_tool);
 /// "shoulder0/elbow0/wrist0" for the signs [1, 1, 1].
 std::string label_of(const Figures& signs);
-/// Largest difference of two joint vectors, whole turns aside [rad].
-double wrapped_difference(const JointVector& a, const JointVector& b);
 
 }  // namespace armature::paper

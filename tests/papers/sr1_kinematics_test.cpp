@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "armature/kinds/ik/test_goals.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/values/angles.hpp"
 #include "sr1_arms.hpp"
@@ -62,7 +63,7 @@ void expect_branches(const SolvedArm& arm, const Figures& row, double tolerance)
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const IkBranch& branch = found.branch[i];
     EXPECT_EQ(branch.label, label_of(wanted[i]["s1_s3_s5"]));
-    EXPECT_LE(wrapped_difference(branch.q, wanted[i]["q"].numbers()), tolerance) << branch.label;
+    EXPECT_LE(test::joint_distance(branch.q, wanted[i]["q"].numbers()), tolerance) << branch.label;
     EXPECT_EQ(branch.singular, wanted[i]["wrist_singular"].text() == "true") << branch.label;
     EXPECT_LE(branch.residual.position_m, 1e-11);
     EXPECT_LE(branch.residual.angle_rad, 1e-11);
@@ -87,11 +88,11 @@ TEST(Sr1, AtTheElbowsAndTheShouldersSingularSetBothRootsAreOne) {
     for (std::size_t i = 0; i < 8; i += which == 1 ? 4 : 1) {
       if (which == 2 && i >= 4) break;
       EXPECT_TRUE(found.branch[i].singular);
-      EXPECT_LE(wrapped_difference(found.branch[i].q, found.branch[i + pair].q), 1e-5);
+      EXPECT_LE(test::joint_distance(found.branch[i].q, found.branch[i + pair].q), 1e-5);
     }
     double nearest = 1;
     for (const IkBranch& branch : found) {
-      nearest = std::min(nearest, wrapped_difference(branch.q, q));
+      nearest = std::min(nearest, test::joint_distance(branch.q, q));
     }
     EXPECT_LE(nearest, 1e-5);  // the root of what 12 digits leave
   }
@@ -122,7 +123,7 @@ TEST(Sr1, TheStartOfThePlannedPathHasTheReferencesJointsInEveryBranch) {
   for (std::size_t i = 0; i < 8; ++i) {
     const Figures wanted = plan["branches"][i];
     EXPECT_EQ(found.branch[i].label, label_of(wanted["s1_s3_s5"]));
-    EXPECT_LE(wrapped_difference(found.branch[i].q, kRadPerDegree * wanted["q0_deg"].numbers()),
+    EXPECT_LE(test::joint_distance(found.branch[i].q, kRadPerDegree * wanted["q0_deg"].numbers()),
               1e-10);
   }
 }
@@ -167,7 +168,7 @@ RoundTrips round_trips(const SolvedArm& arm, int poses) {
           residual(forward_kinematics(*arm.model, branch.q), Eigen::Vector3d::UnitZ(), goal.pose);
       result.largest_residual =
           std::max({result.largest_residual, actual.position_m, actual.angle_rad});
-      nearest = std::min(nearest, wrapped_difference(branch.q, q));
+      nearest = std::min(nearest, test::joint_distance(branch.q, q));
     }
     result.joints_recovered = std::max(result.joints_recovered, nearest);
     ++result.branches[found.count];

@@ -2,6 +2,7 @@
 // SR-1, insertion along a line with the needle as sixth joint.
 #include <gtest/gtest.h>
 
+#include "armature/kinds/ik/test_goals.hpp"
 #include "sr1_arms.hpp"
 
 namespace armature::paper {
@@ -53,7 +54,7 @@ TEST(Sr1Needle, AnInsertionMovesTheNeedleAndNothingElse) {
     ASSERT_EQ(here.count, 8);
     for (std::size_t i = 0; i < 8; ++i) {
       EXPECT_EQ(here.branch[i].label, at_target.branch[i].label);
-      EXPECT_LE(wrapped_difference(here.branch[i].q.head<5>(), at_target.branch[i].q.head<5>()),
+      EXPECT_LE(test::joint_distance(here.branch[i].q.head<5>(), at_target.branch[i].q.head<5>()),
                 1e-14);
       EXPECT_EQ(here.branch[i].q[5], deepest - back);
     }

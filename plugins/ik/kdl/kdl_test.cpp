@@ -8,9 +8,9 @@
 #include "armature/config/document.hpp"
 #include "armature/config/problems.hpp"
 #include "armature/kinds/ik/contract.hpp"
+#include "armature/kinds/ik/test_goals.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
 #include "armature/robot/files/urdf_robot.hpp"
-#include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/model/test_robots.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
@@ -76,9 +76,7 @@ TEST(KdlRefuses, CoupledJointsDirectionsAndJointsBehindTheTool) {
 TEST(Kdl, RefusesARedundancyThatItWouldNotHold) {
   const ModelPtr model = robot("med7");
   const IkSubject made = kdl(model, "lma").value();
-  const Eigen::Isometry3d pose = forward_kinematics(*model, *model->home());
-  IkGoal goal;
-  goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
+  IkGoal goal = test::goal_at(*model, *model->home());
   IkBranches found;
   IkState state;
   EXPECT_EQ(made.solver->solve(goal, *model->home(), found, state).code, IkStatus::Code::ok);
@@ -96,9 +94,7 @@ TEST(Kdl, SolvesForEveryToleranceThatIsAskedFor) {
     int reached = 0;
     for (int i = 0; i < 300; ++i) {
       const JointVector q = testing::random_joints(*model, random);
-      const Eigen::Isometry3d pose = forward_kinematics(*model, q);
-      IkGoal goal;
-      goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
+      IkGoal goal = test::goal_at(*model, q);
       goal.tolerance = {.position_m = i % 2 == 0 ? 1e-3 : 1e-8, .angle_rad = 1e-7};
       IkBranches found;
       IkState state;

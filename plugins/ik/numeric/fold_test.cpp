@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/kinds/ik/test_goals.hpp"
 
 namespace armature::ik::numeric {
 namespace {
@@ -38,13 +38,6 @@ RobotModel limb() {
 
 const JointVector kStretched = Eigen::Matrix<double, 7, 1>{0.3, 0.8, 0, 0, 0, 0.9, 0.5};
 
-IkGoal pose_goal_of(const RobotModel& model, const JointVector& q) {
-  const Eigen::Isometry3d pose = forward_kinematics(model, q);
-  IkGoal goal;
-  goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
-  return goal;
-}
-
 /// The elbow bent by `elbow`, shoulder and wrist turned back by half of that each.
 JointVector bent(double elbow) {
   JointVector q = kStretched;
@@ -54,27 +47,27 @@ JointVector bent(double elbow) {
 
 TEST(FoldStep, StraightensAnArmThatIsToBeStretched) {
   const RobotModel model = limb();
-  const auto step = fold_step(model, pose_goal_of(model, kStretched), 0, bent(0.02));
+  const auto step = fold_step(model, test::goal_at(model, kStretched), 0, bent(0.02));
   ASSERT_TRUE(step);
   EXPECT_LE(std::abs(0.02 + (*step)[3]), 0.002);
 }
 
 TEST(FoldStep, BendsAnArmOnlyAsFarAsAGoalWithinReachAsks) {
   const RobotModel model = limb();
-  const auto step = fold_step(model, pose_goal_of(model, bent(0.01)), 0, bent(0.02));
+  const auto step = fold_step(model, test::goal_at(model, bent(0.01)), 0, bent(0.02));
   ASSERT_TRUE(step);
   EXPECT_NEAR(0.02 + (*step)[3], 0.01, 0.002);
 }
 
 TEST(FoldStep, LeavesAFixedElbowAsItIs) {
   const RobotModel model = limb();
-  const auto step = fold_step(model, pose_goal_of(model, kStretched), 1U << 3, bent(0.02));
+  const auto step = fold_step(model, test::goal_at(model, kStretched), 1U << 3, bent(0.02));
   EXPECT_TRUE(!step || (*step)[3] == 0);
 }
 
 TEST(FoldStep, IsNoneForAGoalThatAnArmReachesByBendingMore) {
   const RobotModel model = limb();
-  EXPECT_FALSE(fold_step(model, pose_goal_of(model, bent(0.03)), 0, bent(0.02)));
+  EXPECT_FALSE(fold_step(model, test::goal_at(model, bent(0.03)), 0, bent(0.02)));
 }
 
 TEST(FoldStep, IsNoneForAnArmWithFewerJointsThanTheGoalHasRows) {
@@ -88,7 +81,7 @@ TEST(FoldStep, IsNoneForAnArmWithFewerJointsThanTheGoalHasRows) {
                           {},
                           {}}};
   const JointVector q = JointVector::Constant(5, 0.3);
-  EXPECT_FALSE(fold_step(model, pose_goal_of(model, q), 0, q.array() + 0.01));
+  EXPECT_FALSE(fold_step(model, test::goal_at(model, q), 0, q.array() + 0.01));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "armature/kinds/ik/test_goals.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/model/robot_model.hpp"
 #include "numeric.hpp"
@@ -45,12 +46,7 @@ class NumericRedundancy : public testing::Test {
     goal.pose = {pose.translation(), Direction{pose.linear() * model_.pointing_axis().value()}};
     return goal;
   }
-  IkGoal turned_as(const JointVector& q) const {
-    const Eigen::Isometry3d pose = forward_kinematics(model_, q);
-    IkGoal goal;
-    goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
-    return goal;
-  }
+  IkGoal turned_as(const JointVector& q) const { return test::goal_at(model_, q); }
   IkStatus solve(const IkGoal& goal, const JointVector& seed) {
     IkState state;
     return solver_->solve(goal, seed, found_, state);

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "armature/kinds/ik/contract.hpp"
+#include "armature/kinds/ik/test_goals.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::ik::numeric {
@@ -169,19 +170,12 @@ INSTANTIATE_TEST_SUITE_P(Numeric, IkLaws,
                                          on("panda", &panda), on("gen3", &gen3)),
                          testing::PrintToStringParamName());
 
-IkGoal goal_at(const RobotModel& model, const JointVector& q) {
-  const Eigen::Isometry3d pose = forward_kinematics(model, q);
-  IkGoal goal;
-  goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
-  return goal;
-}
-
 TEST(Numeric, TheSolutionNextToTheSeedIsFoundFromTheSeed) {
   const RobotModel model = puma();
   const JointVector q = Eigen::Matrix<double, 6, 1>{0.3, -0.6, 0.9, 0.4, 0.7, -0.2};
   IkBranches found;
   IkState state;
-  ASSERT_EQ(solver_for(model)->solve(goal_at(model, q), q.array() + 0.05, found, state).code,
+  ASSERT_EQ(solver_for(model)->solve(test::goal_at(model, q), q.array() + 0.05, found, state).code,
             IkStatus::Code::ok);
   ASSERT_EQ(found.count, 1);
   EXPECT_EQ(found.begin()->label, "from_seed");
@@ -209,7 +203,7 @@ TEST(Numeric, AGoalThatOnlySolutionsBeyondTheLimitsReachIsAJointLimit) {
   const JointVector q = Eigen::Matrix<double, 6, 1>{1.2, -0.6, 0.9, 0.4, 0.7, -0.2};
   IkBranches found;
   IkState state;
-  const IkStatus status = solver_for(narrow)->solve(goal_at(narrow, q), q, found, state);
+  const IkStatus status = solver_for(narrow)->solve(test::goal_at(narrow, q), q, found, state);
   EXPECT_EQ(status.code, IkStatus::Code::joint_limit) << describe(status);
   EXPECT_GE(found.count, 1);
   for (const IkBranch& branch : found) EXPECT_FALSE(branch.within_limits);
@@ -232,7 +226,7 @@ TEST(Numeric, ARedundantArmIsBroughtInsideItsLimitsWithoutARestart) {
     IkBranches found;
     IkState state;
     const JointVector q = within_limits();
-    if (solver->solve(goal_at(model, q), within_limits(), found, state).code !=
+    if (solver->solve(test::goal_at(model, q), within_limits(), found, state).code !=
         IkStatus::Code::ok) {
       continue;
     }
@@ -241,8 +235,9 @@ TEST(Numeric, ARedundantArmIsBroughtInsideItsLimitsWithoutARestart) {
         (branch.q - model.lower()).cwiseMin(model.upper() - branch.q).cwiseAbs().minCoeff();
     if (spare > 1e-12) continue;
     ++at_a_limit;
-    EXPECT_LE(residual(forward_kinematics(model, branch.q), {}, goal_at(model, q).pose).position_m,
-              1e-9);
+    EXPECT_LE(
+        residual(forward_kinematics(model, branch.q), {}, test::goal_at(model, q).pose).position_m,
+        1e-9);
     EXPECT_EQ(branch.singular, manipulability(model, branch.q) < 1e-6);
   }
   EXPECT_GE(at_a_limit, 100);
@@ -263,7 +258,7 @@ TEST(Numeric, WithoutRestartsAnUnreachableGoalEndsWithItsResidual) {
 
 TEST(Numeric, TheIterationBudgetOfTheGoalIsKept) {
   const RobotModel model = puma();
-  IkGoal goal = goal_at(model, Eigen::Matrix<double, 6, 1>{1.3, -0.6, 0.9, 0.4, 0.7, -0.2});
+  IkGoal goal = test::goal_at(model, Eigen::Matrix<double, 6, 1>{1.3, -0.6, 0.9, 0.4, 0.7, -0.2});
   goal.max_iterations = 1;
   IkBranches found;
   IkState state;

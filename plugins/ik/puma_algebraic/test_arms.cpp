@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/kinds/ik/test_goals.hpp"
 #include "puma_algebraic.hpp"
 
 namespace armature {
@@ -132,12 +132,7 @@ void PumaTest::use(const ModelPtr& model) {
   probe_.emplace(subject_, kTools);
 }
 
-IkGoal PumaTest::rotation_goal(const JointVector& q) const {
-  const Eigen::Isometry3d pose = forward_kinematics(model(), q);
-  IkGoal goal;
-  goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
-  return goal;
-}
+IkGoal PumaTest::rotation_goal(const JointVector& q) const { return test::goal_at(model(), q); }
 
 const IkStatus& PumaTest::solve(const IkGoal& goal, const JointVector& seed) {
   const IkStatus& status = probe_->solve(goal, seed);

@@ -3,13 +3,16 @@
 
 #include <array>
 #include <memory>
-#include <random>
 #include <vector>
 
+#include "armature/kinds/ik/test_goals.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "rrp_zyz.hpp"
 
 namespace armature::testing {
+
+using test::goal_at;
+using test::random_joints;
 
 inline std::shared_ptr<const RobotModel> master() {
   static const auto model = std::make_shared<const RobotModel>(
@@ -55,22 +58,6 @@ inline std::shared_ptr<const RobotModel> another_master() {
 
 inline std::shared_ptr<const IkSolver> solver_for(const RobotModel& model) {
   return std::move(RrpZyz::make(model, Params{}).value());
-}
-
-inline IkGoal goal_at(const RobotModel& model, const JointVector& q) {
-  const Eigen::Isometry3d pose = forward_kinematics(model, q);
-  IkGoal goal;
-  goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
-  return goal;
-}
-
-template <class Random>
-JointVector random_joints(const RobotModel& model, Random& random) {
-  JointVector q(model.dof());
-  for (int i = 0; i < model.dof(); ++i) {
-    q[i] = std::uniform_real_distribution{model.lower()[i], model.upper()[i]}(random);
-  }
-  return q;
 }
 
 /// Largest joint difference, whole turns aside.

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "test_arms.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
 
 #include "armature/kinds/declared_params.hpp"
-#include "armature/robot/kinematics/kinematics.hpp"
 #include "srs_arm_angle.hpp"
 
 namespace armature {
@@ -122,21 +120,6 @@ std::shared_ptr<const IkSolver> solver_for(const RobotModel& model, const std::s
   return std::move(SrsArmAngle::make(model, params).value());
 }
 
-IkGoal goal_at(const RobotModel& model, const JointVector& q) {
-  const Eigen::Isometry3d pose = forward_kinematics(model, q);
-  IkGoal goal;
-  goal.pose = {pose.translation(), Eigen::Quaterniond{pose.linear()}};
-  return goal;
-}
-
-JointVector random_joints(const RobotModel& model, std::mt19937_64& random) {
-  JointVector q(7);
-  for (int i = 0; i < 7; ++i) {
-    q[i] = std::uniform_real_distribution{model.lower()[i], model.upper()[i]}(random);
-  }
-  return q;
-}
-
 JointVector joints_at_limits(const RobotModel& model, std::mt19937_64& random) {
   JointVector q = random_joints(model, random);
   for (int i = 0; i < 7; ++i) {
@@ -156,14 +139,6 @@ Angles angles_of(const SrsArm& arm, const JointVector& q) {
   Angles t;
   for (std::size_t i = 0; i < 7; ++i) t[i] = arm.canonical(i, q.data()[i]);
   return t;
-}
-
-double joint_distance(const JointVector& a, const JointVector& b) {
-  double largest = 0;
-  for (Eigen::Index i = 0; i < a.size(); ++i) {
-    largest = std::max(largest, std::abs(wrap_angle(a[i] - b[i])));
-  }
-  return largest;
 }
 
 }  // namespace armature

@@ -9,11 +9,15 @@
 #include <vector>
 
 #include "armature/kinds/ik/ik.hpp"
+#include "armature/kinds/ik/test_goals.hpp"
 #include "srs_structure.hpp"
 
 namespace armature {
 
 using ModelPtr = std::shared_ptr<const RobotModel>;
+using test::goal_at;
+using test::joint_distance;
+using test::random_joints;
 using Angles = std::array<double, 7>;  // t1 to t7 of SrsArm
 
 /// A robot that tests are made for.
@@ -43,13 +47,9 @@ RobotModel random_arm(std::mt19937_64& random);
 std::shared_ptr<const IkSolver> solver_for(const RobotModel& model,
                                            const std::string& objective = "");
 
-IkGoal goal_at(const RobotModel& model, const JointVector& q);
 /// Joints within limits, each by a chance of one half at an end of its range.
 JointVector joints_at_limits(const RobotModel& model, std::mt19937_64& random);
-JointVector random_joints(const RobotModel& model, std::mt19937_64& random);
 JointVector joints_of(const SrsArm& arm, const Angles& t);
 Angles angles_of(const SrsArm& arm, const JointVector& q);
-/// Largest joint difference, whole turns aside.
-double joint_distance(const JointVector& a, const JointVector& b);
 
 }  // namespace armature

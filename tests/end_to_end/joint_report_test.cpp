@@ -8,10 +8,10 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
-#include <numbers>
 #include <sstream>
 #include <thread>
 
+#include "armature/values/angles.hpp"
 #include "armature/values/file_content.hpp"
 #include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
@@ -25,7 +25,6 @@ namespace fs = std::filesystem;
 struct Tolerance {
   double position_m, orientation_rad;
 };
-constexpr double kDegree = std::numbers::pi / 180;
 
 struct System {
   std::string name;                       // of the file in configs/
@@ -157,12 +156,12 @@ TEST_P(JointReport, TellsEveryArmTheSameInEveryRunAndChangesNothing) {
 
 INSTANTIATE_TEST_SUITE_P(
     Of, JointReport,
-    testing::Values(System{"dental_lamp", {{"arm", {1.5e-3, 2.5 * kDegree}}}, 2e-3},
-                    System{"sr1_biopsy", {{"arm", {1e-5, 0.01 * kDegree}}}, 1e-4},
-                    System{"dental_implant", {{"arm", {5e-5, 0.01 * kDegree}}}, 2e-4},
+    testing::Values(System{"dental_lamp", {{"arm", {1.5e-3, 2.5 * kRadPerDegree}}}, 2e-3},
+                    System{"sr1_biopsy", {{"arm", {1e-5, 0.01 * kRadPerDegree}}}, 1e-4},
+                    System{"dental_implant", {{"arm", {5e-5, 0.01 * kRadPerDegree}}}, 2e-4},
                     // The follower trails: its tracking_error_mm, and goal_tolerance_rad.
                     System{"master_manipulator",
-                           {{"leader", {1e-5, 0.001 * kDegree}}, {"arm", {1e-4, 2e-3}}},
+                           {{"leader", {1e-5, 0.001 * kRadPerDegree}}, {"arm", {1e-4, 2e-3}}},
                            5e-4}),
     [](const auto& system) { return system.param.name; });
 

@@ -5,13 +5,13 @@
 
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <string>
+
+#include "armature/values/angles.hpp"
 
 namespace armature {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSame = 1e-9;  // [m] or [rad]
 constexpr std::array<double, 6> kTwistDeg{0, 90, 0, -90, 90, 0};
 constexpr int kBalance = 2, kParallelogram = 3;
@@ -25,10 +25,10 @@ std::string joint_mismatch(const Joint& joint, std::size_t i) {
   if (joint.type != Joint::Type::revolute)
     return fmt::format("joint '{}' is not revolute", joint.name);
   if (joint.placement) return fmt::format("joint '{}' is placed beside its row", joint.name);
-  if (std::abs(joint.alpha - kTwistDeg[i] * kDegree) > kSame) {
-    return must("alpha_deg", kTwistDeg[i], joint.alpha / kDegree);
+  if (std::abs(joint.alpha - kTwistDeg[i] * kRadPerDegree) > kSame) {
+    return must("alpha_deg", kTwistDeg[i], joint.alpha / kRadPerDegree);
   }
-  if (std::abs(joint.theta) > kSame) return must("theta_deg", 0, joint.theta / kDegree);
+  if (std::abs(joint.theta) > kSame) return must("theta_deg", 0, joint.theta / kRadPerDegree);
   const bool has_d = i == 0 || i == 1 || i == 4;
   if (!has_d && std::abs(joint.d) > kSame) return must("d_m", 0, joint.d);
   if (i == 1 && std::abs(joint.a) > kSame) return must("a_m", 0, joint.a);

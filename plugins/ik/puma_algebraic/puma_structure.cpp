@@ -8,11 +8,12 @@
 #include <numbers>
 #include <string>
 
+#include "armature/values/angles.hpp"
+
 namespace armature {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kDegree = kPi / 180;
 constexpr double kSame = 1e-9;  // [m] or [rad]
 
 /// Tx(a) Rx(alpha) between two joints, and the joint in whose row of the file it stands.
@@ -45,7 +46,7 @@ std::string link_mismatch(const Link& link, std::size_t i) {
   const double first = parallel ? 0 : kPi / 2, second = parallel ? kPi : -kPi / 2;
   if (!is_angle(link.alpha, first) && !is_angle(link.alpha, second))
     return fmt::format("alpha_deg must be {}, it is {:.10g}", parallel ? "0 or 180" : "90 or -90",
-                       link.alpha / kDegree);
+                       link.alpha / kRadPerDegree);
   if (parallel && !(std::abs(link.a) > kSame)) return "a_m must not be 0";
   if (i >= 4 && std::abs(link.a) > kSame)
     return fmt::format("a_m must be 0 for axes 4, 5 and 6 to meet, it is {:g}", link.a);

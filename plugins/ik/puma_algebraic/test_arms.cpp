@@ -7,12 +7,11 @@
 #include <utility>
 
 #include "armature/kinds/ik/test_goals.hpp"
+#include "armature/values/angles.hpp"
 #include "puma_algebraic.hpp"
 
 namespace armature {
 namespace {
-
-constexpr double kDegree = std::numbers::pi / 180;
 
 ModelPtr robot(const std::string& name) {
   return std::make_shared<const RobotModel>(
@@ -31,7 +30,8 @@ std::vector<Joint> revolute_rows(const std::vector<std::array<double, 4>>& rows,
   for (const auto& [theta, d, a, alpha] : rows) {
     Joint joint;
     joint.name = "j" + std::to_string(joints.size() + 1);
-    joint.theta = theta * kDegree, joint.d = d, joint.a = a, joint.alpha = alpha * kDegree;
+    joint.theta = theta * kRadPerDegree, joint.d = d, joint.a = a,
+    joint.alpha = alpha * kRadPerDegree;
     joint.lower = -limit, joint.upper = limit;
     joints.push_back(joint);
   }
@@ -61,8 +61,8 @@ ModelPtr standard_puma560() {
   constexpr std::array<std::array<double, 2>, 6> kLimits{
       {{-160, 160}, {-45, 225}, {-225, 45}, {-110, 170}, {-100, 100}, {-266, 266}}};
   for (std::size_t i = 0; i < 6; ++i) {
-    joints[i].lower = kLimits[i][0] * kDegree;
-    joints[i].upper = kLimits[i][1] * kDegree;
+    joints[i].lower = kLimits[i][0] * kRadPerDegree;
+    joints[i].upper = kLimits[i][1] * kRadPerDegree;
   }
   return arm_of(RobotModel::Convention::standard, joints);
 }

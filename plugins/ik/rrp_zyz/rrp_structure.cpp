@@ -4,15 +4,15 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 #include <string>
+
+#include "armature/values/angles.hpp"
 
 namespace armature {
 namespace {
 
 using Eigen::Matrix3d;
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSame = 1e-9;  // [m] or [rad]
 
 /// The sine of a right angle, +1 or -1; 0 for any other angle.
@@ -37,7 +37,7 @@ std::string joint_mismatch(const Joint& joint, std::size_t i) {
   if (i == 0 || right_angle(joint.alpha) != 0) return {};
   if (i == 3 && std::abs(std::sin(joint.alpha)) < kSame) return {};
   return fmt::format("joint '{}': alpha_deg must be {}, it is {:.10g}", joint.name,
-                     i == 3 ? "a multiple of 90" : "90 or -90", joint.alpha / kDegree);
+                     i == 3 ? "a multiple of 90" : "90 or -90", joint.alpha / kRadPerDegree);
 }
 
 /// Rx of a multiple of 90 degrees without rounding, of any other angle as it is.

@@ -7,10 +7,11 @@
 #include <numbers>
 #include <string>
 
+#include "armature/values/angles.hpp"
+
 namespace armature {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kSame = 1e-9;  // [m] or [rad]
 constexpr std::size_t kJoints = 7;
 
@@ -43,7 +44,7 @@ bool is_angle(double angle, double wanted) { return std::abs(wrap_angle(angle - 
 std::string link_mismatch(const Link& link) {
   if (!is_angle(link.alpha, std::numbers::pi / 2) && !is_angle(link.alpha, -std::numbers::pi / 2))
     return fmt::format("joint '{}': alpha_deg must be 90 or -90, it is {:.10g}", link.row->name,
-                       link.alpha / kDegree);
+                       link.alpha / kRadPerDegree);
   if (std::abs(link.a) > kSame)
     return fmt::format("joint '{}': a_m must be 0, it is {:g}", link.row->name, link.a);
   return {};

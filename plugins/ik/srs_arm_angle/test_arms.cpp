@@ -7,12 +7,13 @@
 #include <utility>
 
 #include "armature/kinds/declared_params.hpp"
+#include "armature/values/angles.hpp"
 #include "srs_arm_angle.hpp"
 
 namespace armature {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kDegree = kPi / 180;
+constexpr double kPi = std::numbers::pi;
 
 RobotModel arm_of(RobotModel::Convention convention, std::vector<Joint> joints,
                   const Eigen::Isometry3d& last_T_tool) {
@@ -25,7 +26,8 @@ std::vector<Joint> rows(const std::vector<std::array<double, 4>>& numbers) {
   for (const auto& [theta, d, a, alpha] : numbers) {
     Joint joint;
     joint.name = "j" + std::to_string(joints.size() + 1);
-    joint.theta = theta * kDegree, joint.d = d, joint.a = a, joint.alpha = alpha * kDegree;
+    joint.theta = theta * kRadPerDegree, joint.d = d, joint.a = a,
+    joint.alpha = alpha * kRadPerDegree;
     joint.lower = -kPi, joint.upper = kPi;
     joints.push_back(joint);
   }
@@ -56,8 +58,8 @@ ModelPtr uneven_arm() {
   constexpr std::array<std::array<double, 2>, 7> kLimits{
       {{-150, 80}, {-60, 170}, {-200, 100}, {-150, 95}, {-90, 140}, {-130, 70}, {-300, 300}}};
   for (std::size_t i = 0; i < 7; ++i) {
-    joints[i].lower = kLimits[i][0] * kDegree;
-    joints[i].upper = kLimits[i][1] * kDegree;
+    joints[i].lower = kLimits[i][0] * kRadPerDegree;
+    joints[i].upper = kLimits[i][1] * kRadPerDegree;
   }
   const Eigen::Isometry3d tool = Eigen::Translation3d{0.05, -0.02, 0.1} *
                                  Eigen::AngleAxisd{0.7, Eigen::Vector3d{1, 2, 3}.normalized()};
@@ -69,8 +71,8 @@ ModelPtr narrow_arm() {
   constexpr std::array<std::array<double, 2>, 7> kLimits{
       {{-60, 40}, {-30, 70}, {-20, 90}, {-100, 110}, {-45, 45}, {-80, 20}, {-10, 120}}};
   for (std::size_t i = 0; i < 7; ++i) {
-    joints[i].lower = kLimits[i][0] * kDegree;
-    joints[i].upper = kLimits[i][1] * kDegree;
+    joints[i].lower = kLimits[i][0] * kRadPerDegree;
+    joints[i].upper = kLimits[i][1] * kRadPerDegree;
   }
   return with_joints(*med7_flange(), joints);
 }

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "armature/kinds/geometry_params.hpp"
+#include "armature/values/angles.hpp"
 #include "crossing.hpp"
 
 namespace armature::image::needle_planner {
@@ -17,7 +18,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kDegrees = 180 / std::numbers::pi;
 constexpr int kDirections = 4000;  // over the sphere: 3.2 degrees from one to the next
 constexpr double kOutside = 0.06;  // [m] of the way before the skin that markers must leave free
 
@@ -89,7 +89,7 @@ std::string reason_of(const Way& way) {
                                  : fmt::format("{} is {:.1f} mm away ({:.2f})", way.vessel,
                                                1e3 * way.vessel_distance, way.vessel_cost);
   return fmt::format("{}, {:.0f} mm long ({:.2f}), {:.0f} degrees off the skull's normal ({:.2f})",
-                     vessel, 1e3 * way.length, way.length_cost, kDegrees * way.skull_angle,
+                     vessel, 1e3 * way.length, way.length_cost, kDegreesPerRad * way.skull_angle,
                      way.angle_cost);
 }
 
@@ -108,7 +108,7 @@ Expected<std::vector<Way>> ways_to(const Vector3d& target, const Volume& volume,
   }
   if (all.empty()) return refuse(reason_of(kept));
   std::ranges::stable_sort(all, {}, &Way::cost);
-  constexpr double kApart = 5 / kDegrees;
+  constexpr double kApart = 5 / kDegreesPerRad;
   std::vector<Way> best;
   for (const Way& way : all) {
     if (best.size() == static_cast<std::size_t>(parameters.ways)) break;

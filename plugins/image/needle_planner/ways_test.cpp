@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "armature/values/angles.hpp"
 #include "small_head_test.hpp"
 
 namespace armature::image::needle_planner {
@@ -17,15 +17,13 @@ namespace {
 using Eigen::Vector3d;
 using testing::HasSubstr;
 
-constexpr double kDegree = std::numbers::pi / 180;
-
 const Volume& head() {
   static const Volume volume = SmallHead{}.scan();
   return volume;
 }
 
 /// From above, all that a head of balls lets through.
-Parameters from_above() { return {.approach = {0, 0, 1}, .cone = 60 * kDegree}; }
+Parameters from_above() { return {.approach = {0, 0, 1}, .cone = 60 * kRadPerDegree}; }
 
 std::vector<Way> ways(const Vector3d& target, const std::vector<ForbiddenZone>& vessels = {},
                       const std::vector<ForbiddenZone>& markers = {},
@@ -53,7 +51,7 @@ TEST(Ways, AreCheapestFirstAndApart) {
     for (std::size_t k = 0; k < i; ++k) {
       const Vector3d a = (found[i].entry - target).normalized();
       const Vector3d b = (found[k].entry - target).normalized();
-      EXPECT_LT(a.dot(b), std::cos(4.99 * kDegree));
+      EXPECT_LT(a.dot(b), std::cos(4.99 * kRadPerDegree));
     }
   }
 }
@@ -88,9 +86,9 @@ TEST(Ways, GoThroughNoMarkerNotEvenOutsideOfTheHead) {
 TEST(Ways, StayInTheConeOfTheApproach) {
   Parameters aside = from_above();
   aside.approach = {0, 2, 0};
-  aside.cone = 20 * kDegree;
+  aside.cone = 20 * kRadPerDegree;
   for (const Way& way : ways({0, 0, 0}, {}, {}, aside)) {
-    EXPECT_GT(way.entry.normalized().y(), std::cos(20.01 * kDegree));
+    EXPECT_GT(way.entry.normalized().y(), std::cos(20.01 * kRadPerDegree));
   }
 }
 
@@ -100,8 +98,8 @@ TEST(Ways, ThatAreNoneSayWhatKeptThemOut) {
   EXPECT_THAT(refusal({0, 0, 0}, near),
               HasSubstr("no way in: of 1000 directions 0 meet no skull and "
                         "skin, 1000 are too long, 0 meet"));
-  aslant.max_skull_angle = 1 * kDegree;
-  aslant.cone = 20 * kDegree;
+  aslant.max_skull_angle = 1 * kRadPerDegree;
+  aslant.cone = 20 * kRadPerDegree;
   EXPECT_THAT(refusal({0.03, 0, 0}, aslant), HasSubstr("meet the skull too aslant, 0 go"));
   const ForbiddenZone about{"vessel 1", {0, 0, 0}, {0, 0, 0}, 0.01};
   EXPECT_THAT(refusal({0, 0, 0}, from_above(), {about}),
@@ -114,7 +112,7 @@ TEST(Ways, TellTheirReasonsInWords) {
                 .length = 0.0712,
                 .vessel_distance = 0.0091,
                 .vessel = "vessel 2",
-                .skull_angle = 4 * kDegree,
+                .skull_angle = 4 * kRadPerDegree,
                 .cost = 1.28,
                 .vessel_cost = 0.44,
                 .length_cost = 0.712,

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/angles.hpp"
 
 namespace armature::path::needle {
 namespace {
@@ -15,7 +15,6 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kMaxSteps = 50000;  // on a line: far more than any needle's
-constexpr double kDegrees = 180 / std::numbers::pi;
 
 Vector3d axis_of(const ToolPose& pose) {
   const auto* direction = std::get_if<Direction>(&pose.orientation);

@@ -3,15 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
-
 #include "armature/kinds/select/contract.hpp"
+#include "armature/values/angles.hpp"
 #include "test_robots.hpp"
 
 namespace armature::select::minmax {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr auto kFree = Parameters::FirstMove::free;
 
 Expected<std::vector<JointVector>> choose(const JointVector& start,
@@ -32,7 +30,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         subject("crane", crane()), subject("crane_from_anywhere", crane(), {.first_move = kFree}),
         subject("crane_in_one_branch", crane(), {.one_branch = true}),
-        subject("crane_without_jumps", crane(), {.jump_limit = 360 * kDegree}),
+        subject("crane_without_jumps", crane(), {.jump_limit = 360 * kRadPerDegree}),
         subject("winder", winder()),
         subject("lamp", load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"))),
     testing::PrintToStringParamName());
@@ -119,14 +117,17 @@ TEST(MinMax, NamesTheWaypointAtWhichEveryBranchEnds) {
 TEST(MinMax, NamesTheWaypointThatOnlyAJumpReaches) {
   const auto near = branches({joints(0, 0, 0)});
   const auto far = branches({joints(1, 0, 0), joints(0, -2, 0)});
-  EXPECT_EQ(choose(joints(0, 0, 0), {near, far, near}, {.jump_limit = 30 * kDegree}).error().text,
-            "waypoint 2 of 3: 2 branches within limits, not to be reached from waypoint 1 by turns "
-            "of at most 30 deg");
-  EXPECT_EQ(choose(joints(0, 0, 0), {far, near}, {.jump_limit = 30 * kDegree}).error().text,
+  EXPECT_EQ(
+      choose(joints(0, 0, 0), {near, far, near}, {.jump_limit = 30 * kRadPerDegree}).error().text,
+      "waypoint 2 of 3: 2 branches within limits, not to be reached from waypoint 1 by turns "
+      "of at most 30 deg");
+  EXPECT_EQ(choose(joints(0, 0, 0), {far, near}, {.jump_limit = 30 * kRadPerDegree}).error().text,
             "waypoint 1 of 2: 2 branches within limits, not to be reached from the start by turns "
             "of at most 30 deg");
-  EXPECT_TRUE(choose(joints(0, 0, 0), {far}, {.first_move = kFree, .jump_limit = 30 * kDegree}));
-  EXPECT_TRUE(choose(joints(0, 0, 0), {branches({joints(0, 0, 9)})}, {.jump_limit = 30 * kDegree}))
+  EXPECT_TRUE(
+      choose(joints(0, 0, 0), {far}, {.first_move = kFree, .jump_limit = 30 * kRadPerDegree}));
+  EXPECT_TRUE(
+      choose(joints(0, 0, 0), {branches({joints(0, 0, 9)})}, {.jump_limit = 30 * kRadPerDegree}))
       << "a slide does not turn";
 }
 
@@ -135,7 +136,7 @@ TEST(MinMax, AWholeTurnThatTheLimitsForceIsAJump) {
   const std::vector<IkBranches> waypoints{branches({joints(3.9 - 2 * M_PI, 0, 0)}),
                                           branches({joints(4.1 - 2 * M_PI, 0, 0)})};
   EXPECT_NEAR(choose(joints(3.8, 0, 0), waypoints)->back()[0], 4.1 - 2 * M_PI, 1e-12);
-  EXPECT_EQ(choose(joints(3.8, 0, 0), waypoints, {.jump_limit = 90 * kDegree}).error().text,
+  EXPECT_EQ(choose(joints(3.8, 0, 0), waypoints, {.jump_limit = 90 * kRadPerDegree}).error().text,
             "waypoint 2 of 2: 1 branch within limits, not to be reached from waypoint 1 by turns "
             "of at most 90 deg");
 }

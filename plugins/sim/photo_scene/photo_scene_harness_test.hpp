@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 #include <numeric>
 #include <string>
 #include <vector>
@@ -15,6 +14,7 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/angles.hpp"
 
 namespace armature::sim::photo_scene {
 
@@ -40,10 +40,9 @@ inline std::string in_view(const std::string& more) {
   const RobotModel lamp = load_robot_model(kLamp);
   const Eigen::Isometry3d tool = forward_kinematics(lamp, resting_position(lamp), lamp.tool());
   const Eigen::Vector3d forward = tool.linear().col(0), mouth = tool * Eigen::Vector3d{0.3, 0, 0};
-  constexpr double kPerDegree = std::numbers::pi / 180;
   return fmt::format("mouth_m: [{}, {}, {}], tilt_up_deg: {}, tilt_side_deg: {}, {}", mouth.x(),
-                     mouth.y(), mouth.z(), std::asin(-forward.z()) / kPerDegree,
-                     std::atan2(-forward.y(), forward.x()) / kPerDegree, more);
+                     mouth.y(), mouth.z(), std::asin(-forward.z()) / kRadPerDegree,
+                     std::atan2(-forward.y(), forward.x()) / kRadPerDegree, more);
 }
 
 inline double mean(const msg::Image& image) {

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <numbers>
 #include <string>
 
+#include "armature/values/angles.hpp"
 #include "patient.hpp"
 #include "photo_file.hpp"
 #include "pose_history.hpp"
@@ -17,22 +17,22 @@
 namespace armature::sim::photo_scene {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
 constexpr const char* kAstronaut =
     "/usr/lib/python3/dist-packages/imageio/resources/images/astronaut.png";
 
 TEST(Patient, TurnsTheFaceNormalFromMinusXUpAndAside) {
   EXPECT_TRUE(face_normal({}).isApprox(Eigen::Vector3d{-1, 0, 0}));
-  EXPECT_TRUE(face_normal({.mouth = {}, .tilt_up = 30 * kDegree, .tilt_side = 0})
-                  .isApprox(Eigen::Vector3d{-std::cos(30 * kDegree), 0, 0.5}, 1e-12));
-  EXPECT_TRUE(face_normal({.mouth = {}, .tilt_up = 0, .tilt_side = 30 * kDegree})
-                  .isApprox(Eigen::Vector3d{-std::cos(30 * kDegree), 0.5, 0}, 1e-12));
+  EXPECT_TRUE(face_normal({.mouth = {}, .tilt_up = 30 * kRadPerDegree, .tilt_side = 0})
+                  .isApprox(Eigen::Vector3d{-std::cos(30 * kRadPerDegree), 0, 0.5}, 1e-12));
+  EXPECT_TRUE(face_normal({.mouth = {}, .tilt_up = 0, .tilt_side = 30 * kRadPerDegree})
+                  .isApprox(Eigen::Vector3d{-std::cos(30 * kRadPerDegree), 0.5, 0}, 1e-12));
 }
 
 TEST(Patient, KeepsThePhotoUprightAtEveryTilt) {
   for (double up = -90; up <= 90; up += 15) {
     for (double side = -180; side <= 180; side += 30) {
-      const HeadPose pose{.mouth = {1, 2, 3}, .tilt_up = up * kDegree, .tilt_side = side * kDegree};
+      const HeadPose pose{
+          .mouth = {1, 2, 3}, .tilt_up = up * kRadPerDegree, .tilt_side = side * kRadPerDegree};
       const Eigen::Isometry3d frame = base_T_photo(pose);
       EXPECT_TRUE(frame.linear().isUnitary(1e-12));
       EXPECT_NEAR(frame.linear().determinant(), 1, 1e-12);

@@ -9,10 +9,10 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "armature/kinds/target/contract.hpp"
+#include "armature/values/angles.hpp"
 
 namespace armature::target::constant_velocity {
 
@@ -23,7 +23,6 @@ INSTANTIATE_TEST_SUITE_P(ConstantVelocity, TargetLaws,
 namespace {
 
 using Eigen::Vector3d;
-constexpr double kDegree = std::numbers::pi / 180;
 
 double angle(const Vector3d& a, const Vector3d& b) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
@@ -59,7 +58,7 @@ TEST(ConstantVelocity, AveragesAStillTarget) {
   constexpr int kRuns = 200;
   for (int run = 0; run < kRuns; ++run) {
     SCOPED_TRACE(run);
-    Camera camera{static_cast<std::uint64_t>(run), 0.0015, 1.5 * kDegree};
+    Camera camera{static_cast<std::uint64_t>(run), 0.0015, 1.5 * kRadPerDegree};
     PluginState state;
     TargetEstimate estimate{};
     for (int i = 0; i < 20; ++i) {
@@ -74,7 +73,7 @@ TEST(ConstantVelocity, AveragesAStillTarget) {
   }
   // One look has sqrt(3) x 1.5 mm = 2.6 mm and sqrt(2) x 1.5 = 2.1 degrees.
   EXPECT_LT(std::sqrt(position / kRuns), 0.0010);
-  EXPECT_LT(std::sqrt(normal / kRuns), 0.9 * kDegree);
+  EXPECT_LT(std::sqrt(normal / kRuns), 0.9 * kRadPerDegree);
 }
 
 struct Follow {
@@ -93,7 +92,7 @@ Follow follow_a_move(std::uint64_t seed, double position_sigma, double normal_si
     const double t = 0.1 * i, s = std::clamp(t - 4.05, 0.0, 1.0);
     const double share = s * s * s * (10 + s * (-15 + 6 * s));
     const Vector3d mouth = kMouth + share * Vector3d{0, 0.04, 0.03};
-    const double turn = 10 * kDegree * share;
+    const double turn = 10 * kRadPerDegree * share;
     const Vector3d normal{-std::cos(turn), std::sin(turn), 0};
     const auto estimate = filter.update(camera.look(t, mouth, normal), state);
     if (!estimate) {
@@ -117,29 +116,29 @@ Follow follow_a_move(std::uint64_t seed, double position_sigma, double normal_si
 TEST(ConstantVelocity, FollowsAPatientWhoMovesFiftyMillimetresAndTenDegreesInASecond) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
-    const Follow result = follow_a_move(seed, 0.001, 1.2 * kDegree);
+    const Follow result = follow_a_move(seed, 0.001, 1.2 * kRadPerDegree);
     EXPECT_EQ(result.rejected, 0);
     EXPECT_LT(result.worst_position, 0.012);
-    EXPECT_LT(result.worst_normal, 8 * kDegree);
+    EXPECT_LT(result.worst_normal, 8 * kRadPerDegree);
     EXPECT_LT(result.settled_position, 0.0025);
-    EXPECT_LT(result.settled_normal, 2.5 * kDegree);
+    EXPECT_LT(result.settled_normal, 2.5 * kRadPerDegree);
   }
 }
 
 TEST(ConstantVelocity, FollowsThroughThePapersNoise) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);
-    const Follow result = follow_a_move(seed, 0.005, 4.5 * kDegree);
+    const Follow result = follow_a_move(seed, 0.005, 4.5 * kRadPerDegree);
     EXPECT_EQ(result.rejected, 0);
     EXPECT_LT(result.worst_position, 0.04);
     EXPECT_LT(result.settled_position, 0.012);
-    EXPECT_LT(result.settled_normal, 9 * kDegree);
+    EXPECT_LT(result.settled_normal, 9 * kRadPerDegree);
   }
 }
 
 TEST(ConstantVelocity, RejectsOneOutlierAndSaysHowFarItIs) {
   const ConstantVelocity filter{{}};
-  Camera camera{1, 0.001, 1 * kDegree};
+  Camera camera{1, 0.001, 1 * kRadPerDegree};
   PluginState state;
   for (int i = 0; i < 10; ++i)
     ASSERT_TRUE(filter.update(camera.look(0.1 * i, kMouth, kNormal), state));
@@ -159,7 +158,7 @@ TEST(ConstantVelocity, RejectsOneOutlierAndSaysHowFarItIs) {
 
 TEST(ConstantVelocity, StartsAgainWhereATargetStays) {
   const ConstantVelocity filter{{}};
-  Camera camera{1, 0.001, 1 * kDegree};
+  Camera camera{1, 0.001, 1 * kRadPerDegree};
   PluginState state;
   for (int i = 0; i < 10; ++i)
     ASSERT_TRUE(filter.update(camera.look(0.1 * i, kMouth, kNormal), state));
@@ -176,7 +175,7 @@ TEST(ConstantVelocity, StartsAgainWhereATargetStays) {
 TEST(ConstantVelocity, AFaceThatJumpsBy200MillimetresIsAnOutlierHoweverWellItIsSeen) {
   for (const double rate_hz : {10.0, 30.0}) {
     const ConstantVelocity filter{{}};
-    Camera camera{3, 0.0001, 0.05 * kDegree};
+    Camera camera{3, 0.0001, 0.05 * kRadPerDegree};
     PluginState state;
     for (int i = 0; i < 10; ++i)
       ASSERT_TRUE(filter.update(camera.look(i / rate_hz, kMouth, kNormal), state));
@@ -192,7 +191,7 @@ TEST(ConstantVelocity, AFaceThatJumpsBy200MillimetresIsAnOutlierHoweverWellItIsS
 
 TEST(ConstantVelocity, OutliersHereAndThereAreNeverBelieved) {
   const ConstantVelocity filter{{}};
-  Camera camera{4, 0.001, 1 * kDegree};
+  Camera camera{4, 0.001, 1 * kRadPerDegree};
   std::mt19937_64 random{4};
   std::uniform_real_distribution<double> anywhere{-0.5, 0.5};
   PluginState state;
@@ -214,7 +213,7 @@ TEST(ConstantVelocity, OutliersHereAndThereAreNeverBelieved) {
 
 TEST(ConstantVelocity, AFirstMeasurementThatWasAPhantomIsForgottenAtOnce) {
   const ConstantVelocity filter{{}};
-  Camera camera{6, 0.001, 1 * kDegree};
+  Camera camera{6, 0.001, 1 * kRadPerDegree};
   PluginState state;
   ASSERT_TRUE(filter.update(camera.look(0, kMouth + Vector3d{0.3, 0, 0}, kNormal), state));
   for (int i = 1; i <= 3; ++i) {
@@ -227,7 +226,7 @@ TEST(ConstantVelocity, AFirstMeasurementThatWasAPhantomIsForgottenAtOnce) {
 
 TEST(ConstantVelocity, WhatIsKnownPoorlyMayBeFarther) {
   const ConstantVelocity filter{{}};
-  Camera sharp{7, 0.001, 1 * kDegree}, dim{7, 0.05, 10 * kDegree};
+  Camera sharp{7, 0.001, 1 * kRadPerDegree}, dim{7, 0.05, 10 * kRadPerDegree};
   PluginState state;
   for (int i = 0; i < 10; ++i)
     ASSERT_TRUE(filter.update(sharp.look(0.1 * i, kMouth, kNormal), state));
@@ -243,7 +242,7 @@ struct Rest {
   double share_moving = 0, position_rms = 0, normal_rms = 0;
 };
 Rest rest_of(double rate_hz, double understated) {
-  constexpr double kPosition = 0.002, kTurn = 0.6 * kDegree;
+  constexpr double kPosition = 0.002, kTurn = 0.6 * kRadPerDegree;
   Rest rest;
   int count = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -258,7 +257,7 @@ Rest rest_of(double rate_hz, double understated) {
       if (!estimate || i < 4 * rate_hz) continue;
       ++count;
       rest.share_moving +=
-          estimate->velocity.norm() > 0.01 || estimate->normal_rate.norm() > 3 * kDegree;
+          estimate->velocity.norm() > 0.01 || estimate->normal_rate.norm() > 3 * kRadPerDegree;
       rest.position_rms += (estimate->position - kMouth).squaredNorm();
       rest.normal_rms += std::pow(angle(estimate->normal, kNormal), 2);
     }
@@ -279,8 +278,8 @@ TEST(ConstantVelocity, LearnsHowMuchMeasurementsScatterAndTakesThatForNoMotion) 
           "%g Hz, understated %g times: moving %.3f, %.2f mm, %.2f deg (stated right: %.3f, %.2f, "
           "%.2f)\n",
           rate_hz, understated, rest.share_moving, rest.position_rms * 1e3,
-          rest.normal_rms / kDegree, stated.share_moving, stated.position_rms * 1e3,
-          stated.normal_rms / kDegree);
+          rest.normal_rms / kRadPerDegree, stated.share_moving, stated.position_rms * 1e3,
+          stated.normal_rms / kRadPerDegree);
       EXPECT_LT(rest.share_moving, 0.01);
       EXPECT_LT(rest.position_rms, 1.5 * stated.position_rms);
       EXPECT_LT(rest.normal_rms, 1.5 * stated.normal_rms);
@@ -291,7 +290,7 @@ TEST(ConstantVelocity, LearnsHowMuchMeasurementsScatterAndTakesThatForNoMotion) 
 TEST(ConstantVelocity, FollowsATargetWhoseMeasurementsScatterMoreThanTheySay) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const ConstantVelocity filter{{}};
-    Camera camera{seed, 0.001, 0.3 * kDegree};
+    Camera camera{seed, 0.001, 0.3 * kRadPerDegree};
     PluginState state;
     double worst = 0;
     for (int i = 0; i < 30 * 8; ++i) {  // still for 4 s, then 50 mm/s
@@ -310,7 +309,7 @@ TEST(ConstantVelocity, FollowsATargetWhoseMeasurementsScatterMoreThanTheySay) {
 
 TEST(ConstantVelocity, PredictsAlongTheVelocity) {
   const ConstantVelocity filter{{}};
-  Camera camera{1, 0.0002, 0.1 * kDegree};
+  Camera camera{1, 0.0002, 0.1 * kRadPerDegree};
   PluginState state;
   const Vector3d velocity{0.02, -0.1, 0.05};
   for (int i = 0; i < 30; ++i) {
@@ -327,7 +326,7 @@ TEST(ConstantVelocity, PredictsNoFurtherThanItsGap) {
   const ConstantVelocity filter{{}};
   PluginState state;
   EXPECT_EQ(filter.predict(Time{}, state).error().text, "no measurement yet");
-  Camera camera{1, 0.001, 1 * kDegree};
+  Camera camera{1, 0.001, 1 * kRadPerDegree};
   ASSERT_TRUE(filter.update(camera.look(1, kMouth, kNormal), state));
   EXPECT_TRUE(filter.predict(Time{} + seconds(1.9), state));
   EXPECT_EQ(filter.predict(Time{} + seconds(2.5), state).error().text,
@@ -337,7 +336,7 @@ TEST(ConstantVelocity, PredictsNoFurtherThanItsGap) {
 TEST(ConstantVelocity, StartsAgainAfterTheGap) {
   const ConstantVelocity filter{{}};
   PluginState state;
-  Camera camera{1, 0.001, 1 * kDegree};
+  Camera camera{1, 0.001, 1 * kRadPerDegree};
   ASSERT_TRUE(filter.update(camera.look(1, kMouth, kNormal), state));
   const auto again = filter.update(camera.look(2.5, kMouth + Vector3d{0.5, 0, 0}, kNormal), state);
   ASSERT_TRUE(again);
@@ -346,7 +345,7 @@ TEST(ConstantVelocity, StartsAgainAfterTheGap) {
 
 TEST(ConstantVelocity, SaysWhatIsWrongWithAMeasurement) {
   const ConstantVelocity filter{{}};
-  Camera camera{5, 0.001, 1 * kDegree};
+  Camera camera{5, 0.001, 1 * kRadPerDegree};
   PluginState state;
   ASSERT_TRUE(filter.update(camera.look(1, kMouth, kNormal), state));
   auto bad = camera.look(1.1, kMouth, kNormal);

@@ -51,6 +51,13 @@ TEST(Sr1Biopsy, ANeedleThatIsStoppedInTheHeadStaysOnItsLine) {
   }
 }
 
+TEST(Sr1Biopsy, ANeedleThatTrailsItsWayStops) {
+  const DeploymentRun run = biopsy({"components.arm.params.lag_s=0.1"});
+  EXPECT_EQ(run.status(), "refused") << run.text();
+  EXPECT_NE(run.word("reason").find(" away from the reference (max_deviation_"), std::string::npos)
+      << run.text();
+}
+
 TEST(Sr1Biopsy, SolversRegistrationsAndTrajectoriesAreSwappedByOneWord) {
   for (const char* swap : {"components.motion.ik.plugin=ik/numeric",
                            "components.registration.plugin=registration/affine4",

@@ -13,6 +13,11 @@ constexpr int kMaxAttempts = 3;                    // to plan while the arm move
 constexpr double kStill = 1e-3;                    // [rad/s] or [m/s] that an arm tells of itself
 constexpr double kSamePlace = 1e-6;                // [rad] or [m]
 constexpr Duration kPausePatience = seconds(0.1);  // behind the start that its plan should have
+constexpr Duration kAnswer =
+    seconds(1);  // so soon a drive that is on has gone where the reference came
+
+constexpr std::string_view kBesideItself =
+    "it goes along when the reference comes to it, so the reference stays";
 
 /// Of which a plan is made.
 bool is_planned(MotionMode mode) {
@@ -121,10 +126,26 @@ void GoalExecution::stop(Time now) {
                                     limits_.max_acceleration, now, last_goal_id_));
 }
 
+bool GoalExecution::goes_along(const JointVector& q, Time now) const {
+  if (!came_ || now - came_->end > kAnswer) return false;
+  const JointVector by = came_->to - came_->from, beyond = q - came_->to;
+  Eigen::Index most = 0;
+  by.cwiseAbs().maxCoeff(&most);
+  return beyond[most] * by[most] > 0.5 * by[most] * by[most];
+}
+
 void GoalExecution::come_to(const JointVector& q, Time now) {
-  const JointVector within = q.cwiseMax(model_.lower()).cwiseMin(model_.upper());
-  reference_.splice(short_move(reference_.at(now).q, within, limits_.max_velocity,
-                               limits_.max_acceleration, now, last_goal_id_));
+  if (!rest_.rests() || beside_itself_ || now < reference_.end()) return;
+  if (goes_along(q, now)) {
+    beside_itself_ = true;
+    return;
+  }
+  const JointVector from = reference_.at(now).q;
+  const JointVector to = q.cwiseMax(model_.lower()).cwiseMin(model_.upper());
+  if ((to - from).isZero(kSamePlace)) return;
+  reference_.splice(
+      short_move(from, to, limits_.max_velocity, limits_.max_acceleration, now, last_goal_id_));
+  came_ = {.from = from, .to = to, .end = reference_.end()};
 }
 
 void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
@@ -132,13 +153,18 @@ void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
   const ReasonText stray = tolerance_violation(
       model_, measured.q, {wanted, "the reference", "max_deviation"}, options_.max_deviation);
   const bool was_astray = std::exchange(astray_, !stray.empty());
-  if (stray.empty()) return trouble_.clear();
+  if (stray.empty()) {
+    beside_itself_ = beside_itself_ && (halted() || !rest_.rests());
+    return trouble_.clear();
+  }
   if (!was_astray) {
     trouble_ = stray;
     fail_all("execution", stray);
     return stop(now);
   }
-  if (!halted() && now >= reference_.end()) come_to(measured.q, now);
+  if (halted() || beside_itself_) return;
+  come_to(measured.q, now);
+  if (beside_itself_) trouble_ = ReasonText::format("{}; {}", stray.view(), kBesideItself);
 }
 
 bool GoalExecution::guided(Time now) const {
@@ -157,7 +183,8 @@ void GoalExecution::forget_if_late(Time now) {
   measured_.reset();  // nor may a rearm begin from where the arm was
   rest_.forget();
   begin_after_ = now;
-  spliced_ = astray_ = in_hand_ = false;
+  spliced_ = astray_ = in_hand_ = beside_itself_ = false;
+  came_.reset();
 }
 
 void GoalExecution::begin(Time now, const std::optional<MeasuredJoints>& measured) {
@@ -179,9 +206,17 @@ void GoalExecution::stay_with(const MeasuredJoints& measured, Time now) {
   const auto is_within = [&](const JointBound& bound) {
     return is_near(model_, measured.q, stands, bound);
   };
+  if (!follows_) {
+    if (rest_.rests() || !is_within(options_.max_deviation)) reference_.start(measured.q, now);
+    return;
+  }
   // An arm that follows, and sags a little, would sink if the reference came to it.
-  if (follows_ && is_within(options_.goal_tolerance)) return;
-  if (rest_.rests() || !is_within(options_.max_deviation)) reference_.start(measured.q, now);
+  if (is_within(options_.goal_tolerance)) {
+    beside_itself_ = false;
+  } else if (!beside_itself_) {
+    come_to(measured.q, now);
+    if (beside_itself_) halted_ = ReasonText::format("{}; {}", halted_.view(), kBesideItself);
+  }
 }
 
 void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measured) {
@@ -387,7 +422,8 @@ bool GoalExecution::rearm(Time now) {
   was_stopped_ = in_hand_ = false;
   trouble_.clear();
   astray_ = false;
-  reference_.start(measured_->q, now);
+  came_.reset();
+  if (!std::exchange(beside_itself_, false)) reference_.start(measured_->q, now);
   return true;
 }
 

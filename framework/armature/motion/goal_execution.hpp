@@ -66,8 +66,9 @@ class GoalExecution {
   /// Once per activation, before goals: starts the reference where the arm rests, ends what is
   /// done, stops within limits when the arm does not follow or falls silent, comes back within
   /// limits to an arm that has not followed when it rests, and follows the arm that is guided. Of
-  /// an arm that is halted nothing is wanted: where it rests elsewhere, or is pushed to, is where
-  /// the reference is.
+  /// an arm that is halted nothing is wanted: where it rests elsewhere, or was pushed to, is where
+  /// the reference comes. An arm that goes along when the reference comes to it is held where that
+  /// is, and said to.
   void update(Time now, const std::optional<MeasuredJoints>& measured);
 
   /// `wrong`: what is wrong with the goal, or empty; the statuses say what came of it. Key poses
@@ -157,8 +158,13 @@ class GoalExecution {
   /// After a standstill of this unit or of the whole machine the reference must not be where it
   /// would have come to meanwhile: the arm has not gone there.
   void forget_if_late(Time now);
-  /// From rest.
+  /// From rest to rest, within limits: to an arm that rests at `q`. Not to one whose drive is on,
+  /// and which measures itself beside where it is told to be (an encoder that slipped, a load that
+  /// a weak drive does not hold): the reference would come to it for ever, and take it along.
   void come_to(const JointVector& q, Time now);
+  /// Whether an arm that rests at `q` has gone on by what the reference came to it, by half at
+  /// least.
+  bool goes_along(const JointVector& q, Time now) const;
   /// Whether the arm follows the reference, and what to do when it does not.
   void watch(Time now, const MeasuredJoints& measured);
   /// True while a hand moves the arm; it does not before the arm has stopped.
@@ -191,7 +197,13 @@ class GoalExecution {
   bool spliced_ = false;  // since the last update
   bool astray_ = false;   // the arm is not where the reference is
   bool follows_ = true;
-  bool in_hand_ = false;  // it was halted while a hand moved it, which still does
+  struct Coming {
+    JointVector from, to;
+    Time end;
+  };
+  std::optional<Coming> came_;  // the last one to an arm that rested elsewhere
+  bool beside_itself_ = false;  // an arm that went along then
+  bool in_hand_ = false;        // it was halted while a hand moved it, which still does
   ReasonText trouble_ = "no joint state of the arm yet";
   ReasonText halted_;
 };

@@ -203,6 +203,26 @@ TEST_F(GoalExecutionTest, ComesBackWithoutAJumpToAnArmThatIsHeldFast) {
   EXPECT_EQ(statuses_.back().state, State::executing);
 }
 
+/// An encoder that has slipped: the arm goes where it is told, and measures itself elsewhere.
+TEST_F(GoalExecutionTest, IsNotLedAwayByAnArmThatGoesAlongWhenTheReferenceComesToIt) {
+  for (const double slip : {0.08, -0.08}) {
+    SCOPED_TRACE(slip);
+    step_to(to_seconds(now_ - Time{}) + 0.2);
+    const JointVector rested = before_.q;
+    JointVector arm = rested;
+    for (int k = 0; k < 20000; ++k) {
+      arm += (execution_.reference().at(now_).q - arm) * (0.001 / 0.05);
+      step_with(arm + JointVector::Constant(3, slip));
+      ASSERT_LT((arm - rested).norm(), 1.01 * std::abs(slip) * std::sqrt(3)) << "it came once";
+    }
+    EXPECT_THAT(std::string{execution_.trouble().view()},
+                testing::AllOf(testing::StartsWith("joint z of the arm is "),
+                               testing::HasSubstr("so the reference stays")));
+    step_to(to_seconds(now_ - Time{}) + 0.2);
+    EXPECT_TRUE(execution_.trouble().empty()) << "it measures itself rightly again";
+  }
+}
+
 TEST_F(GoalExecutionTest, WaitsWhereItHasStoppedForAnArmThatComesLate) {
   step_to(0.1);
   give(goal_at(1, 1, 1, 1));

@@ -17,7 +17,9 @@ constexpr Duration kAnswer =
     seconds(1);  // so soon a drive that is on has gone where the reference came
 
 constexpr std::string_view kBesideItself =
-    "it goes along when the reference comes to it, so the reference stays";
+    "the arm goes along when the reference comes to it, so the reference stays: look at its "
+    "encoders "
+    "and its load";
 
 /// Of which a plan is made.
 bool is_planned(MotionMode mode) {

@@ -89,7 +89,7 @@ TEST_F(GoalExecutionTest, AHaltedArmThatGoesAlongWhenTheReferenceComesToItIsHeld
     }
     EXPECT_LT((arm - rested).norm(), 1.01 * std::abs(beside) * std::sqrt(3)) << "it came once";
     EXPECT_THAT(std::string{execution_.trouble().view()},
-                testing::StartsWith("the button; it goes along"));
+                testing::StartsWith("the button; the arm goes along"));
     const JointVector held = before_.q;
     ASSERT_TRUE(execution_.rearm(now_));
     step_with(arm - JointVector::Constant(3, beside));

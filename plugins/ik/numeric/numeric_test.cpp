@@ -163,11 +163,12 @@ IkLawCase on(std::string name, RobotModel (*model)()) {
           }};
 }
 
+// The arms that ship, with the parameters that it ships with, are asked by tests/contracts.
 INSTANTIATE_TEST_SUITE_P(Numeric, IkLaws,
-                         testing::Values(on("dental_lamp", &lamp), on("puma", &puma),
-                                         on("seven", &seven), on("gantry", &gantry),
-                                         on("two_elbows", &two_elbows), on("askew", &askew),
-                                         on("panda", &panda), on("gen3", &gen3)),
+                         testing::Values(on("puma", &puma), on("seven", &seven),
+                                         on("gantry", &gantry), on("two_elbows", &two_elbows),
+                                         on("askew", &askew), on("panda", &panda),
+                                         on("gen3", &gen3)),
                          testing::PrintToStringParamName());
 
 TEST(Numeric, TheSolutionNextToTheSeedIsFoundFromTheSeed) {

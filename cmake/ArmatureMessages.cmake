@@ -12,6 +12,7 @@ function(armature_add_messages name)
     FOLDERS "$<TARGET_PROPERTY:Armature::idl,INTERFACE_INCLUDE_DIRECTORIES>=armature/messages"
     IDL ${ARGN})
   add_library(${name} SHARED ${code})
+  armature_message_headers(${name} "${name}" ${ARGN})
   target_include_directories(${name} PUBLIC "${CMAKE_CURRENT_BINARY_DIR}/generated")
   target_link_libraries(${name} PUBLIC Armature::messages)
   # Samples and topics outlive the plugin that made them, and need the code of their type.
@@ -43,4 +44,14 @@ function(armature_generate_messages code)
                      COMMENT "Messages: ${arg_HEADER_FOLDER}"
                      COMMAND_EXPAND_LISTS VERBATIM)
   set(${code} ${made} PARENT_SCOPE)
+endfunction()
+
+# armature_message_headers(weather_msgs weather_msgs weather.idl...): which headers the library has, for the
+# plugins that link it.
+function(armature_message_headers library header_folder)
+  foreach(file ${ARGN})
+    cmake_path(GET file STEM stem)
+    set_property(TARGET ${library} APPEND PROPERTY ARMATURE_MESSAGE_HEADERS "${header_folder}/${stem}.hpp")
+  endforeach()
+  set_property(TARGET ${library} APPEND PROPERTY EXPORT_PROPERTIES ARMATURE_MESSAGE_HEADERS)
 endfunction()

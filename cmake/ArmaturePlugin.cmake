@@ -5,8 +5,9 @@
 #
 # The folder's plugin.yaml (id, kind, parameters, ports) is embedded as constant text, together with
 # the ABI tag of the compiler that builds it; both are read without running the library's code. Its
-# parameters become `struct Parameters` of the namespace Armature::ik::lamp_geometric, in the header
-# ik_lamp_geometric_parameters.hpp.
+# parameters become `struct Parameters` of the namespace armature::ik::lamp_geometric, in the header
+# ik_lamp_geometric_parameters.hpp. The ports of a component become `struct Ports` of its namespace, in
+# task_lamp_ports.hpp; the libraries of LINK that armature_add_messages made have their message types.
 # VERIFY [options]: in somebody else's project, a test that is `armature plugin verify` with these options.
 # TEST_ONLY: for the framework's own tests; kept apart from the plugins and not installed.
 # TEST_OPTIONS: of armature_add_test.
@@ -57,9 +58,30 @@ function(armature_header_tags_of result kind)
   set(${result} "${text}" PARENT_SCOPE)
 endfunction()
 
+# armature_ports_of(ports message_headers component task_lamp Armature::task weather_msgs ...): the header of
+# the ports, and those of all messages that they may carry; of a pure kind none.
+function(armature_ports_of ports message_headers kind target)
+  set(headers "")
+  set(file "")
+  if(kind STREQUAL "component")
+    set(file "${CMAKE_CURRENT_BINARY_DIR}/${target}_ports.hpp")
+    foreach(link Armature::messages ${ARGN})
+      if(TARGET ${link})
+        get_target_property(of_library ${link} ARMATURE_MESSAGE_HEADERS)
+        if(of_library)
+          list(APPEND headers ${of_library})
+        endif()
+      endif()
+    endforeach()
+    list(REMOVE_DUPLICATES headers)
+  endif()
+  set(${ports} "${file}" PARENT_SCOPE)
+  set(${message_headers} "${headers}" PARENT_SCOPE)
+endfunction()
+
 # The library of the plugin that armature_add_plugin adds, or of one level of it.
 macro(armature_add_plugin_library library)
-  add_library(${library} MODULE ${arg_SOURCES} "${parameters}"
+  add_library(${library} MODULE ${arg_SOURCES} "${parameters}" ${ports}
                                 "${CMAKE_CURRENT_BINARY_DIR}/${target}_manifest.cpp")
   target_include_directories(${library} PRIVATE "${CMAKE_CURRENT_BINARY_DIR}")
   target_link_libraries(${library} PRIVATE Armature::abi ${arg_LINK})
@@ -112,8 +134,9 @@ function(armature_add_plugin id)
                               SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)
 
   set(parameters "${CMAKE_CURRENT_BINARY_DIR}/${target}_parameters.hpp")
-  add_custom_command(OUTPUT "${parameters}"
-                     COMMAND Armature::parameters plugin.yaml "${parameters}" "${id}"
+  armature_ports_of(ports message_headers "${kind}" "${target}" ${arg_LINK})
+  add_custom_command(OUTPUT "${parameters}" ${ports}
+                     COMMAND Armature::parameters plugin.yaml "${parameters}" "${id}" ${ports} ${message_headers}
                      WORKING_DIRECTORY "${CMAKE_CURRENT_SOURCE_DIR}"
                      DEPENDS plugin.yaml Armature::parameters VERBATIM)
   armature_add_plugin_library(${target})

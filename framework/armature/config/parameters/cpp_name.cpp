@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/config/parameters/cpp_name.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <functional>
 
@@ -22,8 +24,10 @@ constexpr std::string_view kTaken =
 }  // namespace
 
 std::string in_cpp(std::string_view name) {
-  const bool is_taken = kTaken.find(" " + std::string{name} + " ") != kTaken.npos;
-  return is_taken ? std::string{name} + "_" : std::string{name};
+  std::string in_cpp{name};
+  std::ranges::replace_if(in_cpp, std::not_fn(is_in_a_name), '_');
+  const bool is_taken = kTaken.find(" " + in_cpp + " ") != kTaken.npos;
+  return is_taken ? in_cpp + "_" : in_cpp;
 }
 
 bool is_in_a_name(char c) {
@@ -34,12 +38,39 @@ std::string namespace_of(std::string_view id) {
   std::string name = "armature";
   while (!id.empty()) {
     const std::size_t slash = std::min(id.find('/'), id.size());
-    std::string part = in_cpp(id.substr(0, slash));
-    std::ranges::replace_if(part, std::not_fn(is_in_a_name), '_');
-    name += "::" + part;
+    name += "::" + in_cpp(id.substr(0, slash));
     id.remove_prefix(std::min(slash + 1, id.size()));
   }
   return name;
+}
+
+std::string camel_case(std::string_view name) {
+  std::string camel;
+  bool is_first = true;
+  for (const char c : name) {
+    if (c != '_') camel += is_first && c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+    is_first = c == '_';
+  }
+  return camel;
+}
+
+std::string literal_of(std::string_view text) {
+  std::string literal = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') literal += '\\';
+    if (c >= 0 && c < ' ') {
+      literal += fmt::format("\\{:03o}", static_cast<int>(c));
+    } else {
+      literal += c;
+    }
+  }
+  return literal + '"';
+}
+
+std::string comment_of(std::string text) {
+  std::ranges::replace(text, '\n', ' ');
+  if (text.ends_with('\\')) text += '.';  // or the next line would belong to the comment
+  return text.empty() ? "" : "  /// " + text + '\n';
 }
 
 }  // namespace armature

@@ -30,17 +30,6 @@ std::string member_name(const ParamSpec& spec, const std::vector<ParamSpec>& all
   return is_ambiguous && unit ? fmt::format("{}_{}", stem, unit->si) : in_cpp(stem);
 }
 
-/// "InterpolationRule" of "interpolation_rule".
-std::string camel_case(std::string_view name) {
-  std::string camel;
-  bool is_first = true;
-  for (const char c : name) {
-    if (c != '_') camel += is_first && c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-    is_first = c == '_';
-  }
-  return camel;
-}
-
 bool fits_int(const ParamSpec& spec) {
   using Int = std::numeric_limits<int>;
   return spec.min && spec.max && *spec.min >= Int::min() && *spec.max <= Int::max();
@@ -92,20 +81,6 @@ std::string read_of(const ParamSpec& spec, const std::string& type) {
   return "";
 }
 
-/// A text as a C++ literal.
-std::string literal_of(std::string_view text) {
-  std::string literal = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') literal += '\\';
-    if (c >= 0 && c < ' ') {
-      literal += fmt::format("\\{:03o}", static_cast<int>(c));
-    } else {
-      literal += c;
-    }
-  }
-  return literal + '"';
-}
-
 std::string double_text(double value) {
   const std::string text = fmt::format("{}", value);
   return text.find_first_of(".en") == std::string::npos ? text + ".0" : text;
@@ -145,14 +120,11 @@ std::string default_of(const ParamSpec& spec, const Params& defaults) {
   return "";
 }
 
-/// "[rad] The tilt of the head", on lines of its own.
-std::string comment_of(const ParamSpec& spec) {
+/// "[rad] The tilt of the head".
+std::string doc_of(const ParamSpec& spec) {
   const config::UnitSuffix* unit = config::unit_of(spec.name);
-  const std::string in = unit ? fmt::format(" [{}]", unit->si) : "";
-  std::string doc = spec.doc.empty() ? "" : " " + spec.doc;
-  std::ranges::replace(doc, '\n', ' ');
-  if (doc.ends_with('\\')) doc += '.';  // or the next line would belong to the comment
-  return in.empty() && doc.empty() ? "" : fmt::format("  ///{}{}\n", in, doc);
+  if (!unit) return spec.doc;
+  return fmt::format("[{}]{}{}", unit->si, spec.doc.empty() ? "" : " ", spec.doc);
 }
 
 void check_choices(const ParamSpec& spec, const config::Origin& place, config::Problems& problems) {
@@ -213,7 +185,7 @@ std::string parameters_header(const config::Node& manifest, config::Problems& pr
     const std::string initial = spec.type == Type::choice && spec.fallback
                                     ? fmt::format(" = {}::{}", type, value)
                                     : fmt::format("{{{}}}", value);
-    members += fmt::format("{}  {} {}{};\n", comment_of(spec), type, member, initial);
+    members += fmt::format("{}  {} {}{};\n", comment_of(doc_of(spec)), type, member, initial);
     reads += fmt::format("{}.{} = {}", reads.empty() ? "" : ",\n            ", member,
                          read_of(spec, type));
   }

@@ -6,15 +6,15 @@
 
 #include "armature/kinds/volume_messages.hpp"
 #include "armature/messages/stamp.hpp"
-#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/component/ports.hpp"
 #include "armature/values/time.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
-/// The volume that a topic announces, for who needs its voxels. Claims the input `volume`.
+/// The volume that a topic announces, for who needs its voxels.
 class AnnouncedVolume {
  public:
-  explicit AnnouncedVolume(Setup& setup) : files_{setup.input<msg::VolumeFile>("volume")} {}
+  explicit AnnouncedVolume(Input<msg::VolumeFile> files) : files_{files} {}
 
   /// When the volume that was announced last was taken; nothing before there is one. What is found
   /// in a volume is told under its stamp.

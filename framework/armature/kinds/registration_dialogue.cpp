@@ -5,12 +5,13 @@
 
 namespace armature {
 
-RegistrationDialogue::RegistrationDialogue(Setup& setup, double marker_error,
-                                           double match_tolerance)
+RegistrationDialogue::RegistrationDialogue(Output<msg::RegistrationRequest> requests,
+                                           Input<msg::RegistrationResponse> answers,
+                                           double marker_error, double match_tolerance)
     : marker_error_{marker_error},
       match_tolerance_{match_tolerance},
-      answers_{setup.input<msg::RegistrationResponse>("registration")},
-      requests_{setup.output<msg::RegistrationRequest>("request")} {}
+      requests_{requests},
+      answers_{answers} {}
 
 bool RegistrationDialogue::due(Time now) const {
   constexpr Duration kAnswerWithin = seconds(1.0);

@@ -9,13 +9,13 @@
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry_msgs.hpp"
-#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/component/ports.hpp"
+#include "armature/values/time.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
 /// How the markers of an image lie before a robot: a task's question to a registration, and the
-/// answers to it. Claims the output `request` and the input `registration`; reads `marker_error_mm`
-/// and `match_tolerance_mm`.
+/// answers to it.
 class RegistrationDialogue {
  public:
   struct Question {
@@ -26,7 +26,9 @@ class RegistrationDialogue {
 
   /// `marker_error` [m]: how well a marker is measured. `match_tolerance` [m]: how far two
   /// distances of the same markers may differ.
-  RegistrationDialogue(Setup& setup, double marker_error, double match_tolerance);
+  RegistrationDialogue(Output<msg::RegistrationRequest> requests,
+                       Input<msg::RegistrationResponse> answers, double marker_error,
+                       double match_tolerance);
 
   /// True when it has not been asked yet, or not been answered in time.
   bool due(Time now) const;
@@ -45,16 +47,16 @@ class RegistrationDialogue {
   double marker_error_, match_tolerance_;
   std::optional<std::uint64_t> last_id_;
   Time requested_at_;
-  Input<msg::RegistrationResponse> answers_;
   Output<msg::RegistrationRequest> requests_;
+  Input<msg::RegistrationResponse> answers_;
 };
 
-/// The same dialogue for who only watches it. Claims the inputs `request` and `registration`.
+/// The same dialogue for who only watches it.
 class OverheardRegistration {
  public:
-  explicit OverheardRegistration(Setup& setup)
-      : requests_{setup.input<msg::RegistrationRequest>("request")},
-        answers_{setup.input<msg::RegistrationResponse>("registration")} {}
+  OverheardRegistration(Input<msg::RegistrationRequest> requests,
+                        Input<msg::RegistrationResponse> answers)
+      : requests_{requests}, answers_{answers} {}
 
   /// Calls `hear` with every answer to the task's last question that tells a registration.
   template <class Hear>

@@ -31,7 +31,10 @@ in:
 
 class Asks final : public Component {
  public:
-  explicit Asks(Setup& setup) : Component{setup}, dialogue_{setup, 0.0005, 0.003} {}
+  explicit Asks(Setup& setup)
+      : Component{setup},
+        dialogue_{setup.output<msg::RegistrationRequest>("request"),
+                  setup.input<msg::RegistrationResponse>("registration"), 0.0005, 0.003} {}
   void step(Time now) override {
     if (dialogue_.due(now)) dialogue_.ask({.robot_frame = "jaw", .targets = {{}, {}}}, now);
     dialogue_.listen([&](const msg::RegistrationResponse& answer) {
@@ -45,7 +48,10 @@ class Asks final : public Component {
 
 class Watches final : public Component {
  public:
-  explicit Watches(Setup& setup) : Component{setup}, overheard_{setup} {}
+  explicit Watches(Setup& setup)
+      : Component{setup},
+        overheard_{setup.input<msg::RegistrationRequest>("request"),
+                   setup.input<msg::RegistrationResponse>("registration")} {}
   void step(Time) override {
     overheard_.listen([&](const msg::RegistrationResponse&) { log("registered"); });
   }

@@ -10,7 +10,7 @@
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/component/ports.hpp"
 #include "armature/task/answered_words.hpp"
 #include "armature/task/heard_word.hpp"
 #include "armature/task/procedure.hpp"
@@ -32,9 +32,8 @@ struct TaskReport {
 /// several answers take as many states.
 class TaskPorts {
  public:
-  explicit TaskPorts(Setup& setup)
-      : operator_{setup.input<msg::OperatorCommand>("operator")},
-        state_{setup.output<msg::TaskState>("state")} {}
+  TaskPorts(Input<msg::OperatorCommand> operator_words, Output<msg::TaskState> state)
+      : operator_{operator_words}, state_{state} {}
 
   /// Hands new commands to `obey` (OperatorCommand to Expected<void>). A command that is told
   /// again, since its answer has not been seen yet, is obeyed once; one that came too late is

@@ -5,12 +5,12 @@
 #include <string>
 #include <utility>
 
+#include "arm_simulated_ports.hpp"
 #include "armature/kinds/command_watch.hpp"
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/messages/std_msgs.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
@@ -54,17 +54,13 @@ class SimulatedArmComponent : public Component {
         arm_{model_, parameters_, home_of(model_)},
         timeout_{seconds(parameters_.command_timeout)},
         watch_{model_, timeout_, seconds(1 / parameters_.rate)},
-        servo_{.input = setup.input<msg::JointState>("servo_jp"), .what = "a command"},
-        hand_{.input = setup.input<msg::JointState>("hand_js"), .what = "a hand"},
-        power_{setup.input<msg::Bool>("power")},
-        measured_cp_{setup.output<msg::PoseStamped>("measured_cp")},
-        measured_js_{setup.output<msg::JointState>("measured_js")},
-        setpoint_js_{setup.output<msg::JointState>("setpoint_js")},
-        operating_state_{setup.output<msg::String>("operating_state")} {
+        ports_{setup},
+        servo_{.input = ports_.servo_jp, .what = "a command"},
+        hand_{.input = ports_.hand_js, .what = "a hand"} {
     msg::JointState message;
     write_all_joints(model_, arm_.measured(), arm_.measured_velocity(), {}, message);
-    measured_js_.prepare(message);
-    setpoint_js_.prepare(message);
+    ports_.measured_js.prepare(message);
+    ports_.setpoint_js.prepare(message);
     setup.activate_every(seconds(1 / parameters_.rate));
   }
 
@@ -82,8 +78,8 @@ class SimulatedArmComponent : public Component {
       arm_.step(now, follows ? servo_.command : std::nullopt);
     }
     publish_pose(now);
-    publish(measured_js_, arm_.measured(), arm_.measured_velocity(), now);
-    publish(setpoint_js_, arm_.setpoint(), arm_.setpoint_velocity(), now);
+    publish(ports_.measured_js, arm_.measured(), arm_.measured_velocity(), now);
+    publish(ports_.setpoint_js, arm_.setpoint(), arm_.setpoint_velocity(), now);
     show_health(now);
     publish_operating_state(now);
   }
@@ -114,12 +110,12 @@ class SimulatedArmComponent : public Component {
     source.command = command;
   }
   /// Nobody need say that it has.
-  bool has_power() const { return !power_.latest() || power_.latest()->data_(); }
+  bool has_power() const { return !ports_.power.latest() || ports_.power.latest()->data_(); }
   const ReasonText& fault() const { return servo_.fault.empty() ? hand_.fault : servo_.fault; }
 
   void publish_pose(Time now) {
-    if (!measured_cp_.has_subscribers()) return;
-    auto loan = measured_cp_.loan();
+    if (!ports_.measured_cp.has_subscribers()) return;
+    auto loan = ports_.measured_cp.loan();
     write_header(loan->header_(), now, kBaseFrame);
     assign(loan->pose_(), forward_kinematics(model_, arm_.measured()));
     loan.publish();
@@ -167,7 +163,7 @@ class SimulatedArmComponent : public Component {
     const bool switched = std::exchange(told_power_, has_power()) != has_power();
     if (!switched && now - last_state_ < kStatePeriod) return;
     last_state_ = now;
-    auto loan = operating_state_.loan();
+    auto loan = ports_.operating_state.loan();
     loan->data_() = operating_state();
     loan.publish();
   }
@@ -177,11 +173,8 @@ class SimulatedArmComponent : public Component {
   SimulatedArm arm_;
   Duration timeout_;  // a hand that is silent for so long has let go
   CommandWatch watch_;
+  Ports ports_;
   Source servo_, hand_;
-  Input<msg::Bool> power_;
-  Output<msg::PoseStamped> measured_cp_;
-  Output<msg::JointState> measured_js_, setpoint_js_;
-  Output<msg::String> operating_state_;
   bool guided_ = false;
   bool told_power_ = true;
   enum class Trouble { none, held_back, no_command, no_power, refused_command };

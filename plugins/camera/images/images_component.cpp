@@ -14,6 +14,7 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "camera_images_parameters.hpp"
+#include "camera_images_ports.hpp"
 #include "folder_pictures.hpp"
 #include "recorded_pictures.hpp"
 
@@ -60,8 +61,7 @@ class Images final : public Component {
       : Component{setup},
         parameters_{Parameters::read(setup.params())},
         source_{source_of(parameters_)},
-        left_image_{setup.output<msg::Image>("left_image")},
-        right_image_{setup.output<msg::Image>("right_image")} {
+        ports_{setup} {
     setup.activate_every(kLookEvery);
   }
 
@@ -77,7 +77,7 @@ class Images final : public Component {
 
   Parameters parameters_;
   std::unique_ptr<pictures::PictureSource> source_;
-  Output<msg::Image> left_image_, right_image_;
+  Ports ports_;
   std::optional<pictures::TimedPicture> next_;
   bool begun_ = false, exhausted_ = false, finished_ = false;
   Time first_;         // when the first picture came, by the clock of the source
@@ -171,7 +171,7 @@ void Images::go_round(Time now) {
 void Images::publish(Time now) {
   const bool left = next_->side == pictures::Side::left;
   const Time due = next_->published + shift_;
-  auto image = (left ? left_image_ : right_image_).loan();
+  auto image = (left ? ports_.left_image : ports_.right_image).loan();
   write_header(image->header_(), next_->stamp + shift_,
                left ? parameters_.left_frame : parameters_.right_frame);
   image->width_() = image->step_() = static_cast<std::uint32_t>(next_->picture->width);

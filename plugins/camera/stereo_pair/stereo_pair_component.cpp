@@ -18,6 +18,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "calibrated_pair.hpp"
 #include "camera_stereo_pair_parameters.hpp"
+#include "camera_stereo_pair_ports.hpp"
 #include "pair_matcher.hpp"
 
 namespace armature::camera::stereo_pair {
@@ -52,10 +53,7 @@ class StereoPair final : public Component {
   Parameters parameters_;
   CalibratedPair pair_;
   PairMatcher matcher_;
-  Input<msg::Image> left_raw_, right_raw_;
-  Input<msg::Capture> capture_;
-  Output<msg::Image> left_image_, right_image_;
-  Output<msg::CameraInfo> left_info_, right_info_;
+  Ports ports_;
   std::array<std::optional<Time>, 2> heard_;  // of each camera; at first when it was waited for
   std::array<bool, 2> missed_{};  // when the pictures were turned off, and not heard since
   bool was_off_ = false;
@@ -74,18 +72,12 @@ StereoPair::StereoPair(Setup& setup)
       parameters_{Parameters::read(setup.params())},
       pair_{parameters_, optional_rig_of(setup)},
       matcher_{seconds(parameters_.max_skew)},
-      left_raw_{setup.input<msg::Image>("left_raw")},
-      right_raw_{setup.input<msg::Image>("right_raw")},
-      capture_{setup.input<msg::Capture>("capture")},
-      left_image_{setup.output<msg::Image>("left_image")},
-      right_image_{setup.output<msg::Image>("right_image")},
-      left_info_{setup.output<msg::CameraInfo>("left_info")},
-      right_info_{setup.output<msg::CameraInfo>("right_info")} {
+      ports_{setup} {
   setup.activate_every(kLookEvery);
 }
 
 void StereoPair::step(Time now) {
-  const bool off = capture_.latest() && !capture_.latest()->on_();
+  const bool off = ports_.capture.latest() && !ports_.capture.latest()->on_();
   const bool turned_off = off && !std::exchange(was_off_, off);
   for (std::size_t side = 0; side < heard_.size(); ++side) {
     if (turned_off) missed_[side] = is_missed(side, now);
@@ -94,8 +86,8 @@ void StereoPair::step(Time now) {
   }
   was_off_ = off;
   const std::uint64_t unpaired = matcher_.unpaired();
-  take(Side::left, left_raw_, now);
-  take(Side::right, right_raw_, now);
+  take(Side::left, ports_.left_raw, now);
+  take(Side::right, ports_.right_raw, now);
   while (const auto matched = matcher_.next()) {
     if (!off) publish(*matched, now);
   }
@@ -140,12 +132,12 @@ void StereoPair::publish(const MatchedPair& matched, Time now) {
 }
 
 void StereoPair::publish_info(Time stamp) {
-  left_info_.publish(pair_.info(Side::left, stamp));
-  right_info_.publish(pair_.info(Side::right, stamp));
+  ports_.left_info.publish(pair_.info(Side::left, stamp));
+  ports_.right_info.publish(pair_.info(Side::right, stamp));
 }
 
 void StereoPair::publish_picture(Side side, const ImageView& raw, Time stamp) {
-  auto image = (side == Side::left ? left_image_ : right_image_).loan();
+  auto image = (side == Side::left ? ports_.left_image : ports_.right_image).loan();
   write_header(image->header_(), stamp, kLeftCameraFrame);
   image->width_() = image->step_() = static_cast<std::uint32_t>(raw.width);
   image->height_() = static_cast<std::uint32_t>(raw.height);

@@ -7,12 +7,12 @@
 #include <utility>
 
 #include "armature/messages/header.hpp"
-#include "armature/messages/sensor_msgs.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "camera_reader.hpp"
 #include "camera_v4l2_parameters.hpp"
+#include "camera_v4l2_ports.hpp"
 #include "kernel_device.hpp"
 
 namespace armature::camera::v4l2 {
@@ -57,7 +57,7 @@ class V4l2 final : public Component {
   explicit V4l2(Setup& setup)
       : Component{setup},
         parameters_{Parameters::read(setup.params())},
-        image_{setup.output<msg::Image>("image")},
+        ports_{setup},
         reader_{std::make_unique<KernelDevice>(),
                 settings_of(parameters_),
                 {.delay = seconds(parameters_.delay), .timeout = seconds(parameters_.timeout)}},
@@ -73,7 +73,7 @@ class V4l2 final : public Component {
   void publish(Time stamp, std::vector<std::uint8_t> pixels, Time now);
 
   Parameters parameters_;
-  Output<msg::Image> image_;
+  Ports ports_;
   CameraReader reader_;
   DriverQueue<Report>& reports_;
   std::uint64_t published_ = 0, bad_ = 0, lost_ = 0, starts_ = 0;
@@ -93,7 +93,7 @@ void V4l2::hear(Time stamp, Report report, Time now) {
 }
 
 void V4l2::publish(Time stamp, std::vector<std::uint8_t> pixels, Time now) {
-  auto image = image_.loan();
+  auto image = ports_.image.loan();
   write_header(image->header_(), stamp, parameters_.frame);
   image->width_() = image->step_() = static_cast<std::uint32_t>(parameters_.width);
   image->height_() = static_cast<std::uint32_t>(parameters_.height);

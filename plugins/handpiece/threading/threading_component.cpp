@@ -4,7 +4,6 @@
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/thread_messages.hpp"
-#include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
@@ -14,40 +13,35 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "gearing.hpp"
 #include "handpiece_threading_parameters.hpp"
+#include "handpiece_threading_ports.hpp"
 
 namespace armature::handpiece::threading {
 
 class Threading final : public Component {
  public:
-  explicit Threading(Setup& setup)
-      : Component{setup},
-        robot_{robot_of(setup)},
-        thread_{setup.input<msg::ThreadAxis>("thread")},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        handpiece_js_{setup.input<msg::JointState>("handpiece_js")},
-        servo_jp_{setup.output<msg::JointState>("servo_jp")} {
+  explicit Threading(Setup& setup) : Component{setup}, robot_{robot_of(setup)}, ports_{setup} {
     q_ = v_ = JointVector::Zero(robot_.dof());
     msg::JointState room;
     room.position_().resize(1);
     room.velocity_().resize(1);
-    servo_jp_.prepare(room);
+    ports_.servo_jp.prepare(room);
     setup.activate_every(seconds(1 / Parameters::read(setup.params()).rate));
   }
 
   void step(Time now) override {
-    const msg::JointState* handpiece = handpiece_js_.latest();
+    const msg::JointState* handpiece = ports_.handpiece_js.latest();
     if (!handpiece || handpiece->position_().empty()) return;
     follow_thread(handpiece->position_().front());
-    if (!measured_js_.latest()) return;
-    ReasonText wrong = read_joints(robot_, *measured_js_.latest(), q_);
-    if (wrong.empty()) wrong = read_joint_rates(robot_, *measured_js_.latest(), v_);
+    if (!ports_.measured_js.latest()) return;
+    ReasonText wrong = read_joints(robot_, *ports_.measured_js.latest(), q_);
+    if (wrong.empty()) wrong = read_joint_rates(robot_, *ports_.measured_js.latest(), v_);
     if (wrong.empty() && defect_) wrong = defect_;
     if (!wrong.empty()) return degraded(wrong.view());
     healthy();
     const PoseAndJacobian tool = forward_kinematics_with_jacobian(robot_, q_, robot_.tool());
     const Eigen::Vector3d velocity = tool.jacobian.topRows<3>() * v_;
     const Turn turn = gearing_.follow(tool.base_T_frame.translation(), velocity);
-    auto loan = servo_jp_.loan();
+    auto loan = ports_.servo_jp.loan();
     write_header(loan->header_(), now, "");
     loan->position_().assign(1, turn.angle);
     loan->velocity_().assign(1, turn.velocity);
@@ -59,7 +53,7 @@ class Threading final : public Component {
   void follow_thread(double angle) {
     if (!found_) gearing_.stay(angle);
     found_ = true;
-    const auto thread = thread_.latest() ? thread_of(*thread_.latest()) : std::nullopt;
+    const auto thread = ports_.thread.latest() ? thread_of(*ports_.thread.latest()) : std::nullopt;
     if (thread.has_value() == wanted_) return;
     wanted_ = thread.has_value();
     gearing_.release();
@@ -72,9 +66,7 @@ class Threading final : public Component {
   Gearing gearing_;
   bool found_ = false, wanted_ = false;
   const char* defect_ = nullptr;  // of the thread that is wanted
-  Input<msg::ThreadAxis> thread_;
-  Input<msg::JointState> measured_js_, handpiece_js_;
-  Output<msg::JointState> servo_jp_;
+  Ports ports_;
 };
 
 }  // namespace armature::handpiece::threading

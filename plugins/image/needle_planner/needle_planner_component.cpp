@@ -14,6 +14,7 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "head_ball.hpp"
+#include "image_needle_planner_ports.hpp"
 #include "ways.hpp"
 
 namespace armature::image::needle_planner {
@@ -69,18 +70,17 @@ class NeedlePlanner final : public Component {
   explicit NeedlePlanner(Setup& setup)
       : Component{setup},
         parameters_{parameters_of(setup.params())},
-        volume_{setup},
-        markers_{setup.input<msg::ImageMarkers>("markers")},
-        ways_{setup.output<msg::NeedleWays>("ways")},
-        plan_{setup.output<msg::NeedlePlan>("plan")} {}
+        ports_{setup},
+        volume_{ports_.volume} {}
 
   void step(Time) override {
     const auto stamp = volume_.stamp();
-    if (!stamp || !markers_.latest()) return;
-    if (stamp_of(markers_.latest()->header_().stamp_()) != *stamp) return;  // of another volume
+    if (!stamp || !ports_.markers.latest()) return;
+    if (stamp_of(ports_.markers.latest()->header_().stamp_()) != *stamp)
+      return;  // of another volume
     const auto volume = volume_.take();
     if (!volume) return;
-    const auto planned = plan_on(*volume, *markers_.latest());
+    const auto planned = plan_on(*volume, *ports_.markers.latest());
     refusal_ = planned ? "" : planned.error().text;
     publish_ways(planned, *stamp);
     if (!planned) return degraded(refusal_);
@@ -117,7 +117,7 @@ class NeedlePlanner final : public Component {
   }
 
   void publish_ways(const Expected<Planned>& planned, Time stamp) {
-    auto message = ways_.loan();
+    auto message = ports_.ways.loan();
     *message = msg::NeedleWays{};  // it was used before
     write_header(message->header_(), stamp, kImageFrame);
     message->valid_(planned.has_value());
@@ -140,10 +140,10 @@ class NeedlePlanner final : public Component {
   }
 
   void publish_plan(const Planned& planned, Time stamp) {
-    auto message = plan_.loan();
+    auto message = ports_.plan.loan();
     *message = msg::NeedlePlan{};
     write_header(message->header_(), stamp, kImageFrame);
-    for (const msg::ImageMarker& marker : markers_.latest()->markers_()) {
+    for (const msg::ImageMarker& marker : ports_.markers.latest()->markers_()) {
       message->markers_().push_back(marker.position_());
     }
     assign(message->entry_(), planned.ways.front().entry);
@@ -155,10 +155,8 @@ class NeedlePlanner final : public Component {
 
   Parameters parameters_;
   std::string refusal_;
+  Ports ports_;
   AnnouncedVolume volume_;
-  Input<msg::ImageMarkers> markers_;
-  Output<msg::NeedleWays> ways_;
-  Output<msg::NeedlePlan> plan_;
 };
 
 }  // namespace armature::image::needle_planner

@@ -12,6 +12,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/volume/read_volume.hpp"
 #include "image_volume_parameters.hpp"
+#include "image_volume_ports.hpp"
 
 namespace armature::image::volume {
 
@@ -19,9 +20,7 @@ namespace armature::image::volume {
 class VolumeComponent final : public Component {
  public:
   explicit VolumeComponent(Setup& setup)
-      : Component{setup},
-        parameters_{Parameters::read(setup.params())},
-        volume_{setup.output<msg::VolumeFile>("volume")} {
+      : Component{setup}, parameters_{Parameters::read(setup.params())}, ports_{setup} {
     if (std::error_code error; !std::filesystem::exists(parameters_.path, error)) {
       throw SetupError(
           fmt::format("path: there is no '{}'; it is an NRRD file, or the folder of a "
@@ -43,7 +42,7 @@ class VolumeComponent final : public Component {
     const Eigen::Vector3d mm = 1e3 * volume->geometry.spacing;
     log(fmt::format("{} x {} x {} voxels of {:g} x {:g} x {:g} mm", size[0], size[1], size[2],
                     mm.x(), mm.y(), mm.z()));
-    auto message = volume_.loan();
+    auto message = ports_.volume.loan();
     write_header(message->header_(), now, kImageFrame);
     message->path_(std::filesystem::absolute(parameters_.path).string());
     message->sha256_(sha256_of(*volume));
@@ -60,7 +59,7 @@ class VolumeComponent final : public Component {
   Parameters parameters_;
   bool read_ = false;
   std::string refusal_;
-  Output<msg::VolumeFile> volume_;
+  Ports ports_;
 };
 
 }  // namespace armature::image::volume

@@ -6,6 +6,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "jpeg_encoder.hpp"
 #include "monitor_compressed_image_parameters.hpp"
+#include "monitor_compressed_image_ports.hpp"
 
 namespace armature::monitor::compressed_image {
 
@@ -16,9 +17,10 @@ class CompressedImage final : public Component {
       : CompressedImage{setup, Parameters::read(setup.params())} {}
 
   void step(Time now) override {
-    if (!image_.fresh() || !compressed_.has_subscribers() || !rate_limiter_.due(now)) return;
-    const msg::Image& image = *image_.latest();
-    auto compressed = compressed_.loan();
+    if (!ports_.image.fresh() || !ports_.compressed.has_subscribers() || !rate_limiter_.due(now))
+      return;
+    const msg::Image& image = *ports_.image.latest();
+    auto compressed = ports_.compressed.loan();
     if (const auto encoded = encoder_.encode(image, compressed->data_()); !encoded) {
       return degraded(encoded.error().text);
     }
@@ -33,13 +35,11 @@ class CompressedImage final : public Component {
       : Component{setup},
         encoder_{static_cast<int>(parameters.quality)},
         rate_limiter_{seconds(1 / parameters.rate)},
-        image_{setup.input<msg::Image>("image")},
-        compressed_{setup.output<msg::CompressedImage>("compressed")} {}
+        ports_{setup} {}
 
   jpeg::JpegEncoder encoder_;
   RateLimiter rate_limiter_;
-  Input<msg::Image> image_;
-  Output<msg::CompressedImage> compressed_;
+  Ports ports_;
 };
 
 }  // namespace armature::monitor::compressed_image

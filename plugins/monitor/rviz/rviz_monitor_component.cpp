@@ -9,7 +9,6 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
-#include "armature/messages/std_msgs.hpp"
 #include "armature/motion/goal.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
@@ -18,6 +17,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "frame_tree.hpp"
 #include "image_in_base.hpp"
+#include "monitor_rviz_ports.hpp"
 #include "picture.hpp"
 #include "plan_picture.hpp"
 #include "urdf_text.hpp"
@@ -51,34 +51,19 @@ class RvizMonitor final : public Component {
         picture_{model_, tree_, parameters_},
         rate_limiter_{seconds(1 / parameters_.rate)},
         marker_rate_limiter_{seconds(1 / parameters_.marker_rate)},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        target_{setup.input<msg::Target>("target")},
-        truth_{setup.input<msg::Target>("truth")},
-        face_{setup.input<msg::FacePose>("face")},
-        path_{setup.input<msg::ToolPath>("path")},
-        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
-        needle_plan_{setup.input<msg::NeedlePlan>("needle_plan")},
-        implant_plan_{setup.input<msg::ImplantPlan>("implant_plan")},
-        registration_{setup},
-        chain_{setup.input<msg::TFMessage>("chain")},
-        incision_{setup.input<msg::PointStamped>("incision")},
-        goal_{setup.input<msg::MotionGoal>("goal")},
-        tf_{setup.output<msg::TFMessage>("tf")},
-        tf_static_{setup.output<msg::TFMessage>("tf_static")},
-        joint_states_{setup.output<msg::JointState>("joint_states")},
-        tool_pose_{setup.output<msg::PoseStamped>("tool_pose")},
-        markers_{setup.output<msg::MarkerArray>("markers")},
-        plan_markers_{setup.output<msg::MarkerArray>("plan_markers")},
-        robot_description_{setup.output<msg::String>("robot_description")} {
+        ports_{setup},
+        registration_{ports_.request, ports_.registration} {
     setup.activate_every(seconds(1 / parameters_.rate));
   }
 
   void step(Time now) override {
-    for (std::size_t i = 0; i < motion_status_.size(); ++i) goals_.see(motion_status_[i]);
+    for (std::size_t i = 0; i < ports_.motion_status.size(); ++i) {
+      goals_.see(ports_.motion_status[i]);
+    }
     publish_what_never_changes(now);
     if (hear_plans()) publish_plans(now);
     if (!rate_limiter_.due(now)) return;
-    const msg::JointState* arm = measured_js_.latest();
+    const msg::JointState* arm = ports_.measured_js.latest();
     if (!arm) return;
     const auto q = joints_of(model_, *arm);
     if (!q) return degraded("measured_js: " + q.error().text);
@@ -97,32 +82,33 @@ class RvizMonitor final : public Component {
   /// Once: DDS keeps them for those who come later.
   void publish_what_never_changes(Time now) {
     if (std::exchange(told_once_, true)) return;
-    auto fixed = tf_static_.loan();
+    auto fixed = ports_.tf_static.loan();
     tree_.write_fixed(now, *fixed);
     fixed.publish();
-    auto description = robot_description_.loan();
+    auto description = ports_.robot_description.loan();
     description->data_(urdf_text(model_, tree_));
     description.publish();
   }
 
   /// True when something is known that was not before.
   bool hear_plans() {
-    bool is_news = needle_plan_.fresh() || implant_plan_.fresh() || incision_.fresh();
+    bool is_news =
+        ports_.needle_plan.fresh() || ports_.implant_plan.fresh() || ports_.incision.fresh();
     registration_.listen([&](const msg::RegistrationResponse& answer) {
       image_.hear(answer);
       is_news = true;
     });
-    if (chain_.fresh()) image_.hear(*chain_.latest());
-    return hear_goals() || is_news || chain_.fresh();
+    if (ports_.chain.fresh()) image_.hear(*ports_.chain.latest());
+    return hear_goals() || is_news || ports_.chain.fresh();
   }
 
   /// True when the arm is on another way: a pause, going on and going back are the same one.
   bool hear_goals() {
     bool is_news = false;
-    for (std::size_t i = 0; i < goal_.size(); ++i) {
-      switch (static_cast<MotionMode>(goal_[i].mode_())) {
+    for (std::size_t i = 0; i < ports_.goal.size(); ++i) {
+      switch (static_cast<MotionMode>(ports_.goal[i].mode_())) {
         case MotionMode::planned:
-          way_ = goal_[i];
+          way_ = ports_.goal[i];
           is_news = true;
           break;
         case MotionMode::pause:
@@ -138,45 +124,45 @@ class RvizMonitor final : public Component {
 
   /// Once for each change: DDS keeps the last array for those who come later.
   void publish_plans(Time now) {
-    auto markers = plan_markers_.loan();
-    *markers = draw_plans({.needle = needle_plan_.latest(),
-                           .implant = implant_plan_.latest(),
-                           .incision = incision_.latest(),
+    auto markers = ports_.plan_markers.loan();
+    *markers = draw_plans({.needle = ports_.needle_plan.latest(),
+                           .implant = ports_.implant_plan.latest(),
+                           .incision = ports_.incision.latest(),
                            .way = way_ ? &*way_ : nullptr},
                           image_, tree_.name(kBaseFrame), now);
     markers.publish();
   }
 
   void publish_frames(const JointVector& q, Time stamp) {
-    if (!tf_.has_subscribers()) return;
-    auto frames = tf_.loan();
+    if (!ports_.tf.has_subscribers()) return;
+    auto frames = ports_.tf.loan();
     tree_.write_moving(q, stamp, *frames);
     frames.publish();
   }
 
   void publish_joints(const msg::JointState& arm) {
-    if (!joint_states_.has_subscribers()) return;
-    auto joints = joint_states_.loan();
+    if (!ports_.joint_states.has_subscribers()) return;
+    auto joints = ports_.joint_states.loan();
     *joints = arm;
     joints.publish();
   }
 
   void publish_tool_pose(const JointVector& q, Time stamp) {
-    if (!tool_pose_.has_subscribers()) return;
-    auto pose = tool_pose_.loan();
+    if (!ports_.tool_pose.has_subscribers()) return;
+    auto pose = ports_.tool_pose.loan();
     write_header(pose->header_(), stamp, tree_.name(kBaseFrame));
     assign(pose->pose_(), forward_kinematics(model_, q));
     pose.publish();
   }
 
   void publish_markers(const JointVector& q, Time stamp) {
-    if (!markers_.has_subscribers()) return;
-    const msg::ToolPath* path = path_.latest();
-    auto markers = markers_.loan();
+    if (!ports_.markers.has_subscribers()) return;
+    const msg::ToolPath* path = ports_.path.latest();
+    auto markers = ports_.markers.loan();
     *markers = picture_.draw(q, stamp,
-                             {.target = target_.latest(),
-                              .truth = truth_.latest(),
-                              .face = face_.latest(),
+                             {.target = ports_.target.latest(),
+                              .truth = ports_.truth.latest(),
+                              .face = ports_.face.latest(),
                               .path = path,
                               .path_is_followed = path && goals_.pursues(path->goal_id_())});
     markers.publish();
@@ -190,24 +176,10 @@ class RvizMonitor final : public Component {
   RateLimiter rate_limiter_, marker_rate_limiter_;
   bool told_once_ = false;
   std::optional<Time> published_at_;
-  Input<msg::JointState> measured_js_;
-  Input<msg::Target> target_, truth_;
-  Input<msg::FacePose> face_;
-  Input<msg::ToolPath> path_;
-  Input<msg::MotionStatus> motion_status_;
-  Input<msg::NeedlePlan> needle_plan_;
-  Input<msg::ImplantPlan> implant_plan_;
+  Ports ports_;
   OverheardRegistration registration_;
-  Input<msg::TFMessage> chain_;
-  Input<msg::PointStamped> incision_;
-  Input<msg::MotionGoal> goal_;
   ImageInBase image_;
   std::optional<msg::MotionGoal> way_;
-  Output<msg::TFMessage> tf_, tf_static_;
-  Output<msg::JointState> joint_states_;
-  Output<msg::PoseStamped> tool_pose_;
-  Output<msg::MarkerArray> markers_, plan_markers_;
-  Output<msg::String> robot_description_;
 };
 
 }  // namespace armature::monitor::rviz

@@ -25,6 +25,7 @@
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "drawing.hpp"
 #include "monitor_sections_parameters.hpp"
+#include "monitor_sections_ports.hpp"
 #include "png_encoder.hpp"
 
 namespace armature::monitor::sections {
@@ -54,13 +55,10 @@ class SectionsComponent final : public Component {
         parameters_{Parameters::read(setup.params())},
         robot_{robot_of(setup)},
         needle_axis_{robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ())},
-        announced_{setup},
-        plan_{setup.input<msg::NeedlePlan>("plan")},
-        registration_{setup},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        images_{setup.output<msg::Image>("axial"), setup.output<msg::Image>("coronal"),
-                setup.output<msg::Image>("sagittal")},
-        tool_out_{setup.output<msg::ToolInImage>("tool")} {
+        ports_{setup},
+        announced_{ports_.volume},
+        registration_{ports_.request, ports_.registration},
+        images_{ports_.axial, ports_.coronal, ports_.sagittal} {
     if (parameters_.window[0] >= parameters_.window[1]) {
       setup.params().refuse({"window"}, "'window' is black first, then white, which is above it");
     }
@@ -79,7 +77,7 @@ class SectionsComponent final : public Component {
     registration_.listen([&](const msg::RegistrationResponse& response) {
       image_T_robot_ = robot_T_image_of(response).inverse();
     });
-    if (plan_.latest()) plan_now_ = *plan_.latest();
+    if (ports_.plan.latest()) plan_now_ = *ports_.plan.latest();
     const auto tool = tool_now();
     if (tool) tool_ = *tool;
     publish_tool(tool, now);
@@ -108,8 +106,8 @@ class SectionsComponent final : public Component {
  private:
   Expected<Tool> tool_now() const {
     if (!image_T_robot_) return refuse("the image is not registered yet");
-    if (!measured_js_.latest()) return refuse("the arm has not said where it is");
-    const msg::JointState& arm = *measured_js_.latest();
+    if (!ports_.measured_js.latest()) return refuse("the arm has not said where it is");
+    const msg::JointState& arm = *ports_.measured_js.latest();
     const auto q = joints_of(robot_, arm);
     if (!q) return tl::unexpected{q.error()};
     const Eigen::Isometry3d base_T_tool = forward_kinematics(robot_, *q);
@@ -139,7 +137,7 @@ class SectionsComponent final : public Component {
   }
 
   void publish_tool(const Expected<Tool>& tool, Time now) {
-    auto message = tool_out_.loan();
+    auto message = ports_.tool.loan();
     *message = msg::ToolInImage{};  // it was used before
     write_header(message->header_(), tool ? tool->stamp : now, kImageFrame);
     message->valid_(tool && plan_now_);
@@ -208,12 +206,10 @@ class SectionsComponent final : public Component {
   std::optional<msg::NeedlePlan> plan_now_;
   std::optional<Eigen::Affine3d> image_T_robot_;
   std::optional<Tool> tool_;
+  Ports ports_;
   AnnouncedVolume announced_;
-  Input<msg::NeedlePlan> plan_;
   OverheardRegistration registration_;
-  Input<msg::JointState> measured_js_;
   std::array<Output<msg::Image>, 3> images_;
-  Output<msg::ToolInImage> tool_out_;
 };
 
 }  // namespace armature::monitor::sections

@@ -7,6 +7,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "buttons.hpp"
 #include "operator_pendant_parameters.hpp"
+#include "operator_pendant_ports.hpp"
 
 namespace armature::operator_::pendant {
 namespace {
@@ -21,8 +22,7 @@ class PendantComponent : public Component {
       : Component(setup),
         parameters_{Parameters::read(setup.params())},
         buttons_{parameters_.device},
-        hold_to_run_{setup.output<msg::Bool>("hold_to_run")},
-        rearm_{setup.output<msg::Bool>("rearm")} {
+        ports_{setup} {
     if (parameters_.hold_button == parameters_.rearm_button) {
       setup.params().refuse({"rearm_button"},
                             "the button that is held cannot rearm: letting it go "
@@ -33,8 +33,8 @@ class PendantComponent : public Component {
 
   void step(Time now) override {
     if (buttons_.is_open() || now >= next_try_) read(now);
-    publish(hold_to_run_, buttons_.held(parameters_.hold_button));
-    if (buttons_.pressed(parameters_.rearm_button)) publish(rearm_, true);
+    publish(ports_.hold_to_run, buttons_.held(parameters_.hold_button));
+    if (buttons_.pressed(parameters_.rearm_button)) publish(ports_.rearm, true);
   }
 
  private:
@@ -53,7 +53,7 @@ class PendantComponent : public Component {
 
   Parameters parameters_;
   Buttons buttons_;
-  Output<msg::Bool> hold_to_run_, rearm_;
+  Ports ports_;
   Time next_try_;
 };
 

@@ -21,6 +21,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/angles.hpp"
 #include "insertion_monitor.hpp"
+#include "report_biopsy_ports.hpp"
 
 namespace armature::report::biopsy {
 namespace {
@@ -38,20 +39,16 @@ class BiopsyReport final : public Component {
       : Component{setup},
         robot_{robot_of(setup)},
         needle_axis_{robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ())},
-        plan_{setup.input<msg::NeedlePlan>("plan")},
-        truth_{setup.input<msg::TransformStamped>("truth")},
-        registration_{setup},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        task_state_{setup.input<msg::TaskState>("task_state")},
-        touched_{setup.input<msg::MeasuredMarkers>("touched")} {
+        ports_{setup},
+        registration_{ports_.request, ports_.registration} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
     if (!start_) start_ = now;
     registration_.listen([&](const msg::RegistrationResponse& response) { read(response); });
-    for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i], now);
-    for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i], now);
+    for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) read(ports_.measured_js[i], now);
+    for (std::size_t i = 0; i < ports_.task_state.size(); ++i) read(ports_.task_state[i], now);
     // What the tip does after its task was cut off counts: the arm ramps down.
     const bool rests = !moved_at_ || now - *moved_at_ >= kRested;
     finished_ = ended_at_ && (rests || now - *ended_at_ >= kLongestRamp);
@@ -102,27 +99,27 @@ class BiopsyReport final : public Component {
 
   /// None until the task said that the needle is there.
   std::optional<double> target_error_m() const {
-    if (!tip_at_target_ || !plan_.latest() || !truth_.latest()) return {};
-    const Eigen::Isometry3d robot_T_image = to_eigen(truth_.latest()->transform_());
-    return (*tip_at_target_ - robot_T_image * to_eigen(plan_.latest()->target_())).norm();
+    if (!tip_at_target_ || !ports_.plan.latest() || !ports_.truth.latest()) return {};
+    const Eigen::Isometry3d robot_T_image = to_eigen(ports_.truth.latest()->transform_());
+    return (*tip_at_target_ - robot_T_image * to_eigen(ports_.plan.latest()->target_())).norm();
   }
 
   /// Rms distance of the touched places to the true markers that they are nearest to; none when
   /// nothing was touched.
   std::optional<double> touch_error_m() const {
-    if (!touched_.latest() || touched_.latest()->points_().empty()) return {};
-    if (!plan_.latest() || !truth_.latest()) return {};
-    const Eigen::Isometry3d robot_T_image = to_eigen(truth_.latest()->transform_());
+    if (!ports_.touched.latest() || ports_.touched.latest()->points_().empty()) return {};
+    if (!ports_.plan.latest() || !ports_.truth.latest()) return {};
+    const Eigen::Isometry3d robot_T_image = to_eigen(ports_.truth.latest()->transform_());
     double squares = 0;
-    for (const msg::Point& place : touched_.latest()->points_()) {
+    for (const msg::Point& place : ports_.touched.latest()->points_()) {
       double nearest = std::numeric_limits<double>::infinity();
-      for (const msg::Point& marker : plan_.latest()->markers_()) {
+      for (const msg::Point& marker : ports_.plan.latest()->markers_()) {
         const Eigen::Vector3d off = to_eigen(place) - robot_T_image * to_eigen(marker);
         nearest = std::min(nearest, off.squaredNorm());
       }
       squares += nearest;
     }
-    return std::sqrt(squares / static_cast<double>(touched_.latest()->points_().size()));
+    return std::sqrt(squares / static_cast<double>(ports_.touched.latest()->points_().size()));
   }
 
   void read(const msg::RegistrationResponse& response) {
@@ -178,12 +175,8 @@ class BiopsyReport final : public Component {
   bool finished_ = false;
   std::optional<double> time_to_target_s_;
   std::string trouble_, ended_as_;
-  Input<msg::NeedlePlan> plan_;
-  Input<msg::TransformStamped> truth_;
+  Ports ports_;
   OverheardRegistration registration_;
-  Input<msg::JointState> measured_js_;
-  Input<msg::TaskState> task_state_;
-  Input<msg::MeasuredMarkers> touched_;
 };
 
 }  // namespace armature::report::biopsy

@@ -15,6 +15,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "armature/values/angles.hpp"
+#include "report_images_ports.hpp"
 
 namespace armature::report::images {
 
@@ -54,21 +55,18 @@ MarkerErrors errors_of(const msg::NeedlePlan& truth, const msg::ImageMarkers& ma
 
 class ImagesReport final : public Component {
  public:
-  explicit ImagesReport(Setup& setup)
-      : Component{setup},
-        anatomy_{setup.input<msg::NeedlePlan>("anatomy")},
-        markers_{setup.input<msg::ImageMarkers>("markers")},
-        ways_{setup.input<msg::NeedleWays>("ways")} {
+  explicit ImagesReport(Setup& setup) : Component{setup}, ports_{setup} {
     setup.activate_every(seconds(0.1));
   }
 
   void step(Time) override {
-    if (anatomy_.latest() && markers_.latest()) {
-      errors_ = errors_of(*anatomy_.latest(), *markers_.latest());
+    if (ports_.anatomy.latest() && ports_.markers.latest()) {
+      errors_ = errors_of(*ports_.anatomy.latest(), *ports_.markers.latest());
     }
-    if (ways_.latest() && ways_.latest()->valid_()) told_ = *ways_.latest();
-    if (told_ && anatomy_.latest()) {
-      lesion_error_ = (to_eigen(told_->target_()) - to_eigen(anatomy_.latest()->target_())).norm();
+    if (ports_.ways.latest() && ports_.ways.latest()->valid_()) told_ = *ports_.ways.latest();
+    if (told_ && ports_.anatomy.latest()) {
+      lesion_error_ =
+          (to_eigen(told_->target_()) - to_eigen(ports_.anatomy.latest()->target_())).norm();
     }
   }
 
@@ -116,9 +114,7 @@ class ImagesReport final : public Component {
   std::optional<MarkerErrors> errors_;
   std::optional<msg::NeedleWays> told_;
   std::optional<double> lesion_error_;
-  Input<msg::NeedlePlan> anatomy_;
-  Input<msg::ImageMarkers> markers_;
-  Input<msg::NeedleWays> ways_;
+  Ports ports_;
 };
 
 }  // namespace armature::report::images

@@ -28,6 +28,7 @@
 #include "bore_monitor.hpp"
 #include "drill_error.hpp"
 #include "planned_turn.hpp"
+#include "report_implant_ports.hpp"
 #include "smoothness.hpp"
 #include "thread_monitor.hpp"
 
@@ -54,16 +55,8 @@ class ImplantReport final : public Component {
         parameters_{Parameters::read(setup.params())},
         robot_{robot_of(setup)},
         flange_{flange_of(robot_)},
-        plan_{setup.input<msg::ImplantPlan>("plan")},
-        truth_{setup.input<msg::TFMessage>("truth")},
-        estimate_{setup.input<msg::TFMessage>("estimate")},
-        registration_{setup},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        handpiece_js_{setup.input<msg::JointState>("handpiece_js")},
-        thread_{setup.input<msg::ThreadAxis>("thread")},
-        goal_{setup.input<msg::MotionGoal>("goal")},
-        path_{setup.input<msg::ToolPath>("path")},
-        task_state_{setup.input<msg::TaskState>("task_state")} {
+        ports_{setup},
+        registration_{ports_.request, ports_.registration} {
     setup.activate_every(kPeriod);
   }
 
@@ -73,12 +66,14 @@ class ImplantReport final : public Component {
       jaw_T_image_ = robot_T_image_of(response);
     });
     read_chains();
-    for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i], now);
-    for (std::size_t i = 0; i < thread_.size(); ++i) threads_.engage(thread_of(thread_[i]));
+    for (std::size_t i = 0; i < ports_.task_state.size(); ++i) read(ports_.task_state[i], now);
+    for (std::size_t i = 0; i < ports_.thread.size(); ++i) {
+      threads_.engage(thread_of(ports_.thread[i]));
+    }
     handpiece_read_ = 0;
-    for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i]);
-    for (std::size_t i = 0; i < goal_.size(); ++i) read(goal_[i]);
-    for (std::size_t i = 0; i < path_.size(); ++i) read(path_[i]);
+    for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) read(ports_.measured_js[i]);
+    for (std::size_t i = 0; i < ports_.goal.size(); ++i) read(ports_.goal[i]);
+    for (std::size_t i = 0; i < ports_.path.size(); ++i) read(ports_.path[i]);
     finished_ = ended_at_ && now - *ended_at_ >= seconds(parameters_.still_for);
   }
 
@@ -147,17 +142,20 @@ class ImplantReport final : public Component {
   }
 
   void read_chains() {
-    if (!truth_.latest() || !estimate_.latest() || !plan_.latest() || !jaw_T_image_) return;
-    const auto truth = chain_of(*truth_.latest());
-    auto estimate = chain_of(*estimate_.latest());
+    if (!ports_.truth.latest() || !ports_.estimate.latest() || !ports_.plan.latest() ||
+        !jaw_T_image_) {
+      return;
+    }
+    const auto truth = chain_of(*ports_.truth.latest());
+    auto estimate = chain_of(*ports_.estimate.latest());
     if (!truth) return degraded("truth: " + truth.error().text);
     if (!estimate) return degraded("estimate: " + estimate.error().text);
     estimate->patient_T_image = *jaw_T_image_;
     true_chain_ = *truth;
     if (!bores_) bores_.emplace(sites(), *estimate, parameters_);
     bores_->believe(*estimate);
-    auto driver = chain_of(*estimate_.latest(), kDriver);
-    const auto true_driver = chain_of(*truth_.latest(), kDriver);
+    auto driver = chain_of(*ports_.estimate.latest(), kDriver);
+    const auto true_driver = chain_of(*ports_.truth.latest(), kDriver);
     if (!driver || !true_driver) return;
     driver->patient_T_image = *jaw_T_image_;
     true_driver_ = *true_driver;
@@ -167,14 +165,14 @@ class ImplantReport final : public Component {
 
   std::vector<Site> sites() const {
     std::vector<Site> sites;
-    for (const msg::Pose& site : plan_.latest()->sites_()) sites.push_back({to_eigen(site)});
+    for (const msg::Pose& site : ports_.plan.latest()->sites_()) sites.push_back({to_eigen(site)});
     return sites;
   }
 
   /// Of the implants' ends.
   std::vector<Site> places() const {
     std::vector<Site> places = sites();
-    const auto& implants = plan_.latest()->implants_();
+    const auto& implants = ports_.plan.latest()->implants_();
     places.resize(std::min(places.size(), implants.size()));
     for (std::size_t i = 0; i < places.size(); ++i) {
       places[i].image_T_site.translate(Vector3d{0, 0, -implants[i].above_bottom_()});
@@ -186,8 +184,8 @@ class ImplantReport final : public Component {
   /// How far the handpiece had turned at an instant, when it says so.
   std::optional<double> handpiece_at(Time stamp) {
     std::optional<double> angle;
-    for (; handpiece_read_ < handpiece_js_.size(); ++handpiece_read_) {
-      const msg::JointState& state = handpiece_js_[handpiece_read_];
+    for (; handpiece_read_ < ports_.handpiece_js.size(); ++handpiece_read_) {
+      const msg::JointState& state = ports_.handpiece_js[handpiece_read_];
       if (stamp_of(state.header_().stamp_()) > stamp) break;
       if (!state.position_().empty()) angle = state.position_().front();
     }
@@ -365,14 +363,8 @@ class ImplantReport final : public Component {
   std::string state_, trouble_;
   double speed_ = 0;
   bool finished_ = false;
-  Input<msg::ImplantPlan> plan_;
-  Input<msg::TFMessage> truth_, estimate_;
+  Ports ports_;
   OverheardRegistration registration_;
-  Input<msg::JointState> measured_js_, handpiece_js_;
-  Input<msg::ThreadAxis> thread_;
-  Input<msg::MotionGoal> goal_;
-  Input<msg::ToolPath> path_;
-  Input<msg::TaskState> task_state_;
 };
 
 }  // namespace armature::report::implant

@@ -16,6 +16,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "report_incision_ports.hpp"
 
 namespace armature::report::incision {
 namespace {
@@ -38,15 +39,14 @@ class IncisionReport final : public Component {
       : Component{setup},
         model_{robot_of(setup)},
         centre_{.shaft = shaft_of(model_)},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        incision_{setup.input<msg::PointStamped>("incision")} {
+        ports_{setup} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time) override {
     complaint_.clear();
-    if (incision_.fresh()) read(*incision_.latest());
-    for (std::size_t i = 0; i < measured_js_.size(); ++i) read(measured_js_[i]);
+    if (ports_.incision.fresh()) read(*ports_.incision.latest());
+    for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) read(ports_.measured_js[i]);
     if (complaint_.empty()) {
       healthy();
     } else {
@@ -100,8 +100,7 @@ class IncisionReport final : public Component {
   double min_depth_ = std::numeric_limits<double>::infinity();   // [m]
   double max_depth_ = -std::numeric_limits<double>::infinity();  // [m]
   std::string complaint_;
-  Input<msg::JointState> measured_js_;
-  Input<msg::PointStamped> incision_;
+  Ports ports_;
 };
 
 }  // namespace armature::report::incision

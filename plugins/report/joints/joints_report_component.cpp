@@ -16,6 +16,7 @@
 #include "joint_plot.hpp"
 #include "joint_table.hpp"
 #include "report_joints_parameters.hpp"
+#include "report_joints_ports.hpp"
 #include "row_file.hpp"
 #include "timeline.hpp"
 #include "tool_goal.hpp"
@@ -61,10 +62,7 @@ class JointsReport : public Component {
         parameters_{Parameters::read(setup.params())},
         row_period_{seconds(1 / parameters_.rate)},
         plot_{model_},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        servo_jp_{setup.input<msg::JointState>("servo_jp")},
-        goal_{setup.input<msg::MotionGoal>("goal")},
-        status_{setup.input<msg::MotionStatus>("status")} {
+        ports_{setup} {
     if (parameters_.file.empty()) return;
     remove_older(parameters_.file + ".svg");
     table_.emplace(parameters_.file + ".csv");
@@ -77,7 +75,7 @@ class JointsReport : public Component {
     if (!start_) start_ = now;
     hear();
     lines_.clear();
-    for (std::size_t i = 0; i < measured_js_.size(); ++i) see(measured_js_[i]);
+    for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) see(ports_.measured_js[i]);
     table_->append(lines_);
     tell_health();
   }
@@ -94,22 +92,22 @@ class JointsReport : public Component {
 
  private:
   void hear() {
-    for (std::size_t i = 0; i < servo_jp_.size(); ++i) {
+    for (std::size_t i = 0; i < ports_.servo_jp.size(); ++i) {
       Reference reference;
-      const bool readable = read_joints(model_, servo_jp_[i], reference.q).empty() &&
-                            read_joint_rates(model_, servo_jp_[i], reference.v).empty();
-      if (readable) references_.add(stamp_of(servo_jp_[i].header_().stamp_()), reference);
+      const bool readable = read_joints(model_, ports_.servo_jp[i], reference.q).empty() &&
+                            read_joint_rates(model_, ports_.servo_jp[i], reference.v).empty();
+      if (readable) references_.add(stamp_of(ports_.servo_jp[i].header_().stamp_()), reference);
     }
-    for (std::size_t i = 0; i < goal_.size(); ++i) {
-      const ToolGoal goal = tool_goal_of(goal_[i], way_to_);
+    for (std::size_t i = 0; i < ports_.goal.size(); ++i) {
+      const ToolGoal goal = tool_goal_of(ports_.goal[i], way_to_);
       if (goal.pose) way_to_ = goal.pose;
-      goals_.add(stamp_of(goal_[i].header_().stamp_()), goal);
+      goals_.add(stamp_of(ports_.goal[i].header_().stamp_()), goal);
     }
-    for (std::size_t i = 0; i < status_.size(); ++i) {
+    for (std::size_t i = 0; i < ports_.status.size(); ++i) {
       constexpr std::uint8_t kFailed = 4;
-      motion_.has_failed = status_[i].state_() == kFailed;
-      if (motion_.has_failed) motion_.failed_goal = status_[i].goal_id_();
-      motions_.add(stamp_of(status_[i].header_().stamp_()), motion_);
+      motion_.has_failed = ports_.status[i].state_() == kFailed;
+      if (motion_.has_failed) motion_.failed_goal = ports_.status[i].goal_id_();
+      motions_.add(stamp_of(ports_.status[i].header_().stamp_()), motion_);
     }
   }
 
@@ -168,12 +166,10 @@ class JointsReport : public Component {
   Timeline<Reference> references_;
   Timeline<ToolGoal> goals_;
   std::optional<ToolPose> way_to_;  // where the way leads that is gone along
-  Motion motion_;  // as it was told last
+  Motion motion_;                   // as it was told last
   Timeline<Motion> motions_;
   JointPlot plot_;
-  Input<msg::JointState> measured_js_, servo_jp_;
-  Input<msg::MotionGoal> goal_;
-  Input<msg::MotionStatus> status_;
+  Ports ports_;
 };
 
 }  // namespace armature::report::joints

@@ -18,6 +18,7 @@
 #include "armature/values/angles.hpp"
 #include "error_table.hpp"
 #include "following_monitor.hpp"
+#include "report_lamp_alignment_ports.hpp"
 #include "report_pictures.hpp"
 #include "trajectory_hash.hpp"
 #include "unfinished_scenario.hpp"
@@ -38,16 +39,7 @@ class LampReport : public Component {
         light_axis_{model_.pointing_axis().value_or(Eigen::Vector3d::UnitX())},
         parameters_{Parameters::read(setup.params())},
         monitor_{parameters_},
-        truth_{setup.input<msg::Target>("truth")},
-        target_{setup.input<msg::Target>("target")},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        task_state_{setup.input<msg::TaskState>("task_state")},
-        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
-        goal_{setup.input<msg::MotionGoal>("goal")},
-        left_image_{setup.input<msg::Image>("left_image")},
-        left_info_{setup.input<msg::CameraInfo>("left_info")},
-        landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
-        face_{setup.input<msg::FacePose>("face")} {
+        ports_{setup} {
     setup.activate_every(kPeriod);
   }
 
@@ -56,10 +48,10 @@ class LampReport : public Component {
     see_goals();
     read_arm(now);
     see_faces(now);
-    if (task_state_.latest()) see_task(*task_state_.latest(), now);
-    for (std::size_t i = 0; i < motion_status_.size(); ++i) {
+    if (ports_.task_state.latest()) see_task(*ports_.task_state.latest(), now);
+    for (std::size_t i = 0; i < ports_.motion_status.size(); ++i) {
       constexpr std::uint8_t kAccepted = 0;
-      if (motion_status_[i].state_() == kAccepted) monitor_.see_new_goal();
+      if (ports_.motion_status[i].state_() == kAccepted) monitor_.see_new_goal();
     }
     keep_picture();
     monitor_.step(now);
@@ -144,29 +136,30 @@ class LampReport : public Component {
   }
 
   void see_truth(Time now) {
-    if (!truth_.latest()) return;
-    const auto truth = estimate_of(*truth_.latest());
+    if (!ports_.truth.latest()) return;
+    const auto truth = estimate_of(*ports_.truth.latest());
     if (!truth) return;
     monitor_.see_truth(*truth, now);
     following_.see_truth(*truth);
   }
 
   void see_faces(Time now) {
-    for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-      if (!landmarks_[i].valid_()) continue;
-      unfinished_.see_face(stamp_of(landmarks_[i].header_().stamp_()));
-      if (auto face = landmarks_of(landmarks_[i])) seen_ = std::move(*face);
+    for (std::size_t i = 0; i < ports_.landmarks.size(); ++i) {
+      if (!ports_.landmarks[i].valid_()) continue;
+      unfinished_.see_face(stamp_of(ports_.landmarks[i].header_().stamp_()));
+      if (auto face = landmarks_of(ports_.landmarks[i])) seen_ = std::move(*face);
     }
-    for (std::size_t i = 0; i < face_.size(); ++i) {
-      unfinished_.see_code(stamp_of(face_[i].header_().stamp_()), face_[i].code_());
+    for (std::size_t i = 0; i < ports_.face.size(); ++i) {
+      unfinished_.see_code(stamp_of(ports_.face[i].header_().stamp_()), ports_.face[i].code_());
     }
-    for (std::size_t i = 0; i < target_.size(); ++i) {
-      const auto estimate = estimate_of(target_[i]);
+    for (std::size_t i = 0; i < ports_.target.size(); ++i) {
+      const auto estimate = estimate_of(ports_.target[i]);
       if (estimate) {
         monitor_.see_estimate(*estimate, now);
         unfinished_.see_estimate();
       } else {
-        unfinished_.see_refusal(stamp_of(target_[i].header_().stamp_()), estimate.error().text);
+        unfinished_.see_refusal(stamp_of(ports_.target[i].header_().stamp_()),
+                                estimate.error().text);
       }
     }
   }
@@ -182,10 +175,11 @@ class LampReport : public Component {
   }
 
   void see_goals() {
-    for (std::size_t i = 0; i < goal_.size(); ++i) {
-      const Eigen::Vector3d center = to_eigen(goal_[i].position_());
-      const Eigen::Vector3d mouth = to_eigen(goal_[i].focus_());
-      const bool for_a_face = goal_[i].has_focus_() && center.allFinite() && mouth.allFinite();
+    for (std::size_t i = 0; i < ports_.goal.size(); ++i) {
+      const Eigen::Vector3d center = to_eigen(ports_.goal[i].position_());
+      const Eigen::Vector3d mouth = to_eigen(ports_.goal[i].focus_());
+      const bool for_a_face =
+          ports_.goal[i].has_focus_() && center.allFinite() && mouth.allFinite();
       if (!for_a_face) continue;
       monitor_.see_goal(center, mouth);
       asked_m_ = (center - mouth).norm();
@@ -194,8 +188,8 @@ class LampReport : public Component {
 
   void read_arm(Time now) {
     bool at_rest = true, heard = false;
-    for (std::size_t i = 0; i < measured_js_.size(); ++i) {
-      const msg::JointState& measured = measured_js_[i];
+    for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) {
+      const msg::JointState& measured = ports_.measured_js[i];
       hash_.add(stamp_of(measured.header_().stamp_()), measured.position_());
       const auto q = joints_of(model_, measured);
       if (!q) {
@@ -217,9 +211,9 @@ class LampReport : public Component {
 
   /// The newest image whose landmarks are known already.
   void keep_picture() {
-    const msg::Image* image = left_image_.latest();
-    const msg::FaceLandmarks* landmarks = landmarks_.latest();
-    const msg::CameraInfo* info = left_info_.latest();
+    const msg::Image* image = ports_.left_image.latest();
+    const msg::FaceLandmarks* landmarks = ports_.landmarks.latest();
+    const msg::CameraInfo* info = ports_.left_info.latest();
     if (!image || !landmarks || !info) return;
     if (stamp_of(image->header_().stamp_()) != stamp_of(landmarks->header_().stamp_())) return;
     if (image->data_().size() != std::size_t{image->width_()} * image->height_()) return;
@@ -239,7 +233,7 @@ class LampReport : public Component {
 
   void keep_face() {
     picture_.face.reset();
-    const msg::FacePose* face = face_.latest();
+    const msg::FacePose* face = ports_.face.latest();
     if (!face || !face->valid_() || picture_.landmarks.empty()) return;
     const Eigen::Vector3d across = to_eigen(face->right_eye_()) - to_eigen(face->left_eye_());
     picture_.face = CameraPicture::FaceAxes{.mouth = to_eigen(face->mouth_()),
@@ -261,15 +255,7 @@ class LampReport : public Component {
   std::optional<JointVector> last_q_;    // of the arm
   Time last_stamp_;                      // of that
   std::optional<StereoLandmarks> seen_;  // the newest
-  Input<msg::Target> truth_, target_;
-  Input<msg::JointState> measured_js_;
-  Input<msg::TaskState> task_state_;
-  Input<msg::MotionStatus> motion_status_;
-  Input<msg::MotionGoal> goal_;
-  Input<msg::Image> left_image_;
-  Input<msg::CameraInfo> left_info_;
-  Input<msg::FaceLandmarks> landmarks_;
-  Input<msg::FacePose> face_;
+  Ports ports_;
 };
 
 }  // namespace armature::report::lamp_alignment

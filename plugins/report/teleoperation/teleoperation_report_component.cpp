@@ -17,6 +17,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/angles.hpp"
 #include "follow_monitor.hpp"
+#include "report_teleoperation_ports.hpp"
 
 namespace armature::report::teleoperation {
 namespace {
@@ -51,25 +52,22 @@ class TeleoperationReport final : public Component {
         leader_{robot_of(setup)},
         parameters_{parameters_of(setup.params(), leader_)},
         follow_{parameters_},
-        console_{setup.input<msg::TransformStamped>("console")},
-        leader_js_{setup.input<msg::JointState>("leader_js")},
-        leader_cp_{setup.input<msg::PoseStamped>("leader_cp")},
-        follower_cp_{setup.input<msg::PoseStamped>("follower_cp")},
-        intended_cp_{setup.input<msg::PoseStamped>("intended_cp")},
-        task_state_{setup.input<msg::TaskState>("task_state")} {
+        ports_{setup} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
     if (!start_) start_ = now;
     complaint_.clear();
-    for (std::size_t i = 0; i < task_state_.size(); ++i) read(task_state_[i]);
-    if (console_.latest()) read(*console_.latest());
-    for (std::size_t i = 0; i < leader_js_.size(); ++i) read_rates(leader_js_[i]);
-    for (std::size_t i = 0; i < leader_cp_.size(); ++i) read_leader(leader_cp_[i]);
-    for (std::size_t i = 0; i < follower_cp_.size(); ++i) read_follower(follower_cp_[i]);
-    for (std::size_t i = 0; i < intended_cp_.size(); ++i) {
-      read_intended(intended_cp_[i]);
+    for (std::size_t i = 0; i < ports_.task_state.size(); ++i) read(ports_.task_state[i]);
+    if (ports_.console.latest()) read(*ports_.console.latest());
+    for (std::size_t i = 0; i < ports_.leader_js.size(); ++i) read_rates(ports_.leader_js[i]);
+    for (std::size_t i = 0; i < ports_.leader_cp.size(); ++i) read_leader(ports_.leader_cp[i]);
+    for (std::size_t i = 0; i < ports_.follower_cp.size(); ++i) {
+      read_follower(ports_.follower_cp[i]);
+    }
+    for (std::size_t i = 0; i < ports_.intended_cp.size(); ++i) {
+      read_intended(ports_.intended_cp[i]);
     }
     show_health();
     const bool watched = closed_at_ && now - *closed_at_ >= seconds(parameters_.watch);
@@ -210,10 +208,7 @@ class TeleoperationReport final : public Component {
   std::optional<Time> start_, aligned_at_, closed_at_, held_since_;
   std::string complaint_, trouble_;
   bool refused_ = false, aborted_ = false, held_ = false, finished_ = false;
-  Input<msg::TransformStamped> console_;
-  Input<msg::JointState> leader_js_;
-  Input<msg::PoseStamped> leader_cp_, follower_cp_, intended_cp_;
-  Input<msg::TaskState> task_state_;
+  Ports ports_;
 };
 
 }  // namespace armature::report::teleoperation

@@ -19,6 +19,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/volume/nrrd.hpp"
 #include "ct_head.hpp"
+#include "sim_ct_head_ports.hpp"
 
 namespace armature::sim::ct_head {
 namespace {
@@ -61,8 +62,7 @@ class CtHeadComponent final : public Component {
         seed_{setup.seed()},
         name_{setup.name()},
         file_{parameters_.file},
-        anatomy_{setup.input<msg::NeedlePlan>("anatomy")},
-        volume_{setup.output<msg::VolumeFile>("volume")} {}
+        ports_{setup} {}
 
   ~CtHeadComponent() override {
     std::error_code error;
@@ -70,8 +70,8 @@ class CtHeadComponent final : public Component {
   }
 
   void step(Time now) override {
-    if (scanned_ || !anatomy_.latest()) return;
-    const auto volume = scan(anatomy_of(*anatomy_.latest()), parameters_, seed_);
+    if (scanned_ || !ports_.anatomy.latest()) return;
+    const auto volume = scan(anatomy_of(*ports_.anatomy.latest()), parameters_, seed_);
     if (!volume) return degraded(volume.error().text);
     if (file_.empty()) {
       auto made = new_temporary_file(name_);
@@ -85,7 +85,7 @@ class CtHeadComponent final : public Component {
     scanned_ = true;
     const auto& size = volume->geometry.size;
     log(fmt::format("scanned {} x {} x {} voxels", size[0], size[1], size[2]));
-    auto message = volume_.loan();
+    auto message = ports_.volume.loan();
     write_header(message->header_(), now, kImageFrame);
     message->path_(fs::absolute(file_).string());
     message->sha256_(sha256_of(*volume));
@@ -98,8 +98,7 @@ class CtHeadComponent final : public Component {
   std::string name_;
   fs::path file_;  // empty: none was made yet
   bool scanned_ = false;
-  Input<msg::NeedlePlan> anatomy_;
-  Output<msg::VolumeFile> volume_;
+  Ports ports_;
 };
 
 }  // namespace armature::sim::ct_head

@@ -16,6 +16,7 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "leading_hand.hpp"
+#include "sim_leading_hand_ports.hpp"
 
 namespace armature::sim::leading_hand {
 namespace {
@@ -41,17 +42,13 @@ class LeadingHandComponent final : public Component {
         robot_{robot_of(setup)},
         parameters_{parameters_of(setup.params())},
         hand_{parameters_, setup.seed()},
-        plan_{setup.input<msg::NeedlePlan>("plan")},
-        truth_{setup.input<msg::TransformStamped>("truth")},
-        task_state_{setup.input<msg::TaskState>("task_state")},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        hand_js_{setup.output<msg::JointState>("hand_js")} {
+        ports_{setup} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
-    if (!task_state_.latest() || has_let_go(now)) return;
-    const msg::TaskState& task = *task_state_.latest();
+    if (!ports_.task_state.latest() || has_let_go(now)) return;
+    const msg::TaskState& task = *ports_.task_state.latest();
     const bool over = task.state_() == "aborted" || task.state_() == "refused";
     const bool halted = stopping_ || over || task.paused_();
     const Touches touches{.wanted = task.state_() == "touching" && !halted,
@@ -73,12 +70,12 @@ class LeadingHandComponent final : public Component {
   }
 
   void take_hold(Time now) {
-    if (!plan_.latest() || !truth_.latest() || !measured_js_.latest()) return;
-    const auto q = joints_of(robot_, *measured_js_.latest());
+    if (!ports_.plan.latest() || !ports_.truth.latest() || !ports_.measured_js.latest()) return;
+    const auto q = joints_of(robot_, *ports_.measured_js.latest());
     if (!q) return degraded("measured_js: " + q.error().text);
-    const Eigen::Isometry3d base_T_image = to_eigen(truth_.latest()->transform_());
+    const Eigen::Isometry3d base_T_image = to_eigen(ports_.truth.latest()->transform_());
     std::vector<Eigen::Vector3d> markers;
-    for (const auto& marker : plan_.latest()->markers_()) {
+    for (const auto& marker : ports_.plan.latest()->markers_()) {
       markers.push_back(base_T_image * to_eigen(marker));
     }
     if (markers.empty()) return degraded("the plan has no markers");
@@ -110,7 +107,7 @@ class LeadingHandComponent final : public Component {
     }
     const JointVector next = q.value_or(q_);
     const double passed_s = to_seconds(now - std::exchange(moved_at_, now));
-    auto loan = hand_js_.loan();
+    auto loan = ports_.hand_js.loan();
     write_all_joints(robot_, next, JointVector{(next - q_) / (passed_s > 0 ? passed_s : 1)}, now,
                      *loan);
     loan.publish();
@@ -125,11 +122,7 @@ class LeadingHandComponent final : public Component {
   bool stopping_ = false;
   JointVector q_;
   ToolPose pose_;  // of the tool in the hand
-  Input<msg::NeedlePlan> plan_;
-  Input<msg::TransformStamped> truth_;
-  Input<msg::TaskState> task_state_;
-  Input<msg::JointState> measured_js_;
-  Output<msg::JointState> hand_js_;
+  Ports ports_;
 };
 
 }  // namespace armature::sim::leading_hand

@@ -11,6 +11,7 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "marked_head.hpp"
+#include "sim_marked_head_ports.hpp"
 
 namespace armature::sim::marked_head {
 namespace {
@@ -58,9 +59,7 @@ class MarkedHeadComponent final : public Component {
               .vessels = vessels_of(parameters_.vessels, setup.params()),
               .robot_T_image = pose_of(parameters_.head, parameters_.head_rpy)},
         seed_{setup.seed()},
-        plan_{setup.output<msg::NeedlePlan>("plan")},
-        markers_{setup.output<msg::MeasuredMarkers>("markers")},
-        truth_{setup.output<msg::TransformStamped>("truth")} {
+        ports_{setup} {
     setup.activate_every(seconds(0.1));
   }
 
@@ -75,16 +74,16 @@ class MarkedHeadComponent final : public Component {
     write_zones(head_.vessels, plan.forbidden_());
     const Vector3d middle = Vector3d::Zero();
     write_zones({{"head", middle, middle, parameters_.head_radius}}, plan.head_());
-    plan_.publish(plan);
+    ports_.plan.publish(plan);
     msg::MeasuredMarkers markers;
     write_header(markers.header_(), now, kBaseFrame);
     add_points(measured_points(head_, parameters_, seed_), markers.points_());
-    markers_.publish(markers);
+    ports_.markers.publish(markers);
     msg::TransformStamped truth;
     write_header(truth.header_(), now, kBaseFrame);
     truth.child_frame_id_(kImageFrame);
     assign(truth.transform_(), head_.robot_T_image);
-    truth_.publish(truth);
+    ports_.truth.publish(truth);
   }
 
  private:
@@ -92,9 +91,7 @@ class MarkedHeadComponent final : public Component {
   MarkedHead head_;
   std::uint64_t seed_;
   bool published_ = false;
-  Output<msg::NeedlePlan> plan_;
-  Output<msg::MeasuredMarkers> markers_;
-  Output<msg::TransformStamped> truth_;
+  Ports ports_;
 };
 
 }  // namespace armature::sim::marked_head

@@ -20,6 +20,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "line_of_sight.hpp"
 #include "operating_room.hpp"
+#include "sim_optical_tracker_ports.hpp"
 #include "sphere_body.hpp"
 
 namespace armature::sim::optical_tracker {
@@ -72,18 +73,12 @@ class OpticalTracker final : public Component {
         jaw_shift_{vector_of(parameters_.jaw_shift)},
         stand_shift_{vector_of(parameters_.stand_shift)},
         random_{setup.seed()},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        flange_{setup.output<msg::TrackedBody>("flange")},
-        jaw_{setup.output<msg::TrackedBody>("jaw")},
-        pivot_{setup.output<msg::TrackedBody>("pivot")},
-        plan_{setup.output<msg::ImplantPlan>("plan")},
-        markers_{setup.output<msg::MeasuredMarkers>("markers")},
-        truth_{setup.output<msg::TFMessage>("truth")} {
+        ports_{setup} {
     setup.activate_every(seconds(1 / parameters_.rate));
   }
 
   void step(Time now) override {
-    for (std::size_t i = 0; i < measured_js_.size(); ++i) remember(measured_js_[i]);
+    for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) remember(ports_.measured_js[i]);
     if (!start_) {
       start_ = now;
       tell_plan(now);
@@ -98,12 +93,13 @@ class OpticalTracker final : public Component {
     if (stand_shift_ != Eigen::Vector3d::Zero() && elapsed_s >= parameters_.stand_shift_at) {
       shift_stand(now);
     }
-    look(jaw_, "jaw", room_.chain.tracker_T_patient, jaw_sight_, elapsed_s, light);
+    look(ports_.jaw, "jaw", room_.chain.tracker_T_patient, jaw_sight_, elapsed_s, light);
     const bool driver_follows = !room_.implants.empty();
     if (elapsed_s < parameters_.pivot) {
-      look(pivot_, "drill", in_hand(room_.chain.tip, elapsed_s), flange_sight_, elapsed_s, light);
+      look(ports_.pivot, "drill", in_hand(room_.chain.tip, elapsed_s), flange_sight_, elapsed_s,
+           light);
     } else if (driver_follows && elapsed_s < 2 * parameters_.pivot) {
-      look(pivot_, "driver", in_hand(room_.driver_tip, elapsed_s - parameters_.pivot),
+      look(ports_.pivot, "driver", in_hand(room_.driver_tip, elapsed_s - parameters_.pivot),
            flange_sight_, elapsed_s, light);
     } else {
       look_at_flange(elapsed_s, light);
@@ -135,8 +131,8 @@ class OpticalTracker final : public Component {
       planned.length_(implant.length_m);
       planned.pitch_(implant.pitch_m);
     }
-    plan_.publish(plan);
-    markers_.publish(markers);
+    ports_.plan.publish(plan);
+    ports_.markers.publish(markers);
   }
 
   void tell_truth(Time now) {
@@ -147,7 +143,7 @@ class OpticalTracker final : public Component {
       driver.tip = room_.driver_tip;
       write_tool(driver, kDriver, now, truth);
     }
-    truth_.publish(truth);
+    ports_.truth.publish(truth);
   }
 
   void shift_jaw(Time now) {
@@ -174,9 +170,9 @@ class OpticalTracker final : public Component {
   void look_at_flange(double elapsed_s, Time light) {
     const auto base_T_flange = history_.base_T(mount_.frame, light);
     if (!base_T_flange) {
-      return blind(flange_, "flange", base_T_flange.error().text, light);
+      return blind(ports_.flange, "flange", base_T_flange.error().text, light);
     }
-    look(flange_, "flange",
+    look(ports_.flange, "flange",
          room_.chain.base_T_tracker.inverse() * *base_T_flange * room_.chain.flange_T_body,
          flange_sight_, elapsed_s, light);
   }
@@ -218,11 +214,7 @@ class OpticalTracker final : public Component {
   Eigen::Vector3d jaw_shift_, stand_shift_;  // still to come
   std::mt19937_64 random_;
   std::optional<Time> start_;
-  Input<msg::JointState> measured_js_;
-  Output<msg::TrackedBody> flange_, jaw_, pivot_;
-  Output<msg::ImplantPlan> plan_;
-  Output<msg::MeasuredMarkers> markers_;
-  Output<msg::TFMessage> truth_;
+  Ports ports_;
 };
 
 }  // namespace armature::sim::optical_tracker

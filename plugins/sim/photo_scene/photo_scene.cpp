@@ -24,6 +24,7 @@
 #include "armature/scene/splitmix.hpp"
 #include "patient.hpp"
 #include "pose_history.hpp"
+#include "sim_photo_scene_ports.hpp"
 
 namespace armature::sim::photo_scene {
 namespace {
@@ -118,12 +119,7 @@ class PhotoScene final : public Component {
   scene::RightCamera right_camera_;
   PoseHistory base_T_left_;
   std::uint64_t seed_;
-  Input<msg::JointState> measured_js_;
-  Input<msg::LightLevel> light_level_;
-  Input<msg::Capture> capture_;
-  Output<msg::Image> left_image_, right_image_;
-  Output<msg::CameraInfo> left_info_, right_info_;
-  Output<msg::Target> truth_;
+  Ports ports_;
   std::optional<Time> start_, last_picture_;
   std::uint64_t pairs_ = 0;
   int truths_ = 0;                       // told
@@ -141,14 +137,7 @@ PhotoScene::PhotoScene(Setup& setup)
       right_camera_{right_camera_of(parameters_)},
       base_T_left_{parameters_.right_delay},
       seed_{setup.seed()},
-      measured_js_{setup.input<msg::JointState>("measured_js")},
-      light_level_{setup.input<msg::LightLevel>("light_level")},
-      capture_{setup.input<msg::Capture>("capture")},
-      left_image_{setup.output<msg::Image>("left_image")},
-      right_image_{setup.output<msg::Image>("right_image")},
-      left_info_{setup.output<msg::CameraInfo>("left_info")},
-      right_info_{setup.output<msg::CameraInfo>("right_info")},
-      truth_{setup.output<msg::Target>("truth")} {
+      ports_{setup} {
   if (rig_.camera.width > scene::SceneRenderer::kWidestImage) {
     throw SetupError("the rig '" + rig_.name + "' is " + std::to_string(rig_.camera.width) +
                      " px wide; the scene draws at most " +
@@ -161,8 +150,8 @@ void PhotoScene::step(Time now) {
   if (!start_) start_ = now;
   publish_truth(now, at(parameters_, to_seconds(now - *start_)));
 
-  if (capture_.latest() && !capture_.latest()->on_()) return;
-  const msg::JointState* arm = measured_js_.latest();
+  if (ports_.capture.latest() && !ports_.capture.latest()->on_()) return;
+  const msg::JointState* arm = ports_.measured_js.latest();
   if (!arm) return;
   const Time stamp = stamp_of(arm->header_().stamp_());
   if (last_picture_ && stamp <= *last_picture_) return;
@@ -177,7 +166,7 @@ void PhotoScene::step(Time now) {
 
 void PhotoScene::publish_truth(Time now, const MovingHead& head) {
   const TurningDirection normal = carried(head, renderer_.truth().normal());
-  auto truth = truth_.loan();
+  auto truth = ports_.truth.loan();
   write_estimate({.stamp = now,
                   .position = head.pose.mouth,
                   .normal = normal.direction,
@@ -189,16 +178,16 @@ void PhotoScene::publish_truth(Time now, const MovingHead& head) {
 }
 
 void PhotoScene::publish_info(Time stamp) {
-  for (auto* output : {&left_info_, &right_info_}) {
+  for (auto* output : {&ports_.left_info, &ports_.right_info}) {
     msg::CameraInfo info =
-        camera_info(rig_.camera, output == &left_info_ ? 0 : rig_.camera.baseline_m);
+        camera_info(rig_.camera, output == &ports_.left_info ? 0 : rig_.camera.baseline_m);
     set_stamp(info.header_().stamp_(), stamp);
     output->publish(info);
   }
 }
 
 double PhotoScene::brightness(Time stamp) const {
-  const double light = light_level_.latest() ? light_level_.latest()->level_() : 0.0;
+  const double light = ports_.light_level.latest() ? ports_.light_level.latest()->level_() : 0.0;
   const double turns = parameters_.flicker_hz * to_seconds(stamp - *start_);
   return parameters_.gain * (1 + parameters_.light_response * std::clamp(light, 0.0, 1.0)) *
          (1 + parameters_.flicker * std::sin(2 * std::numbers::pi * turns));
@@ -234,7 +223,7 @@ void PhotoScene::take_pictures(Time stamp) {
   const Delivery delivery = draw_delivery();
   if (delivery == Delivery::dropped) return;
   for (const bool of_the_left : {true, false}) {
-    Output<msg::Image>& output = of_the_left ? left_image_ : right_image_;
+    Output<msg::Image>& output = of_the_left ? ports_.left_image : ports_.right_image;
     msg::Image& last = last_pair_[of_the_left ? 0 : 1];
     auto image = output.loan();
     const bool comes_again = delivery == Delivery::repeated || is_frozen(of_the_left, stamp);

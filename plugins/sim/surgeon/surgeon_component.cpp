@@ -20,6 +20,7 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "hand_motion.hpp"
+#include "sim_surgeon_ports.hpp"
 
 namespace armature::sim::surgeon {
 namespace {
@@ -55,20 +56,13 @@ class Surgeon final : public Component {
         parameters_{parameters_of(setup.params())},
         seed_{setup.seed()},
         hand_{parameters_, seed_, path_of(parameters_, setup.params())},
-        task_state_{setup.input<msg::TaskState>("task_state")},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        path_{setup.input<msg::PoseArray>("path")},
-        console_{setup.output<msg::TransformStamped>("console")},
-        incision_{setup.output<msg::PointStamped>("incision")},
-        hand_js_{setup.output<msg::JointState>("hand_js")},
-        clutch_{setup.output<msg::Bool>("clutch")},
-        intended_cp_{setup.output<msg::PoseStamped>("intended_cp")} {
+        ports_{setup} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
     if (!console_told_) tell_console(now);
-    if (path_.fresh()) take_path(*path_.latest());
+    if (ports_.path.fresh()) take_path(*ports_.path.latest());
     if (!taken_at_) take_hold(now);
     if (!taken_at_) return;
     const double t = to_seconds(now - *taken_at_);
@@ -77,10 +71,10 @@ class Surgeon final : public Component {
     pause(now);
     const double hand_t = t - paused_s_;
     move(hand_t, now);
-    auto clutch = clutch_.loan();
+    auto clutch = ports_.clutch.loan();
     clutch->data_(hand_.clutch_closed(t));
     clutch.publish();
-    auto intended = intended_cp_.loan();
+    auto intended = ports_.intended_cp.loan();
     write_header(intended->header_(), now, kBaseFrame);
     assign(intended->pose_(), hand_.intended(hand_t, start_));
     intended.publish();
@@ -92,7 +86,7 @@ class Surgeon final : public Component {
  private:
   /// Nobody goes on moving a leader while the console is held, tells trouble, or stops.
   void pause(Time now) {
-    const msg::TaskState* task = task_state_.latest();
+    const msg::TaskState* task = ports_.task_state.latest();
     const bool held = task && (task->state_() == "held" || !task->detail_().empty());
     const double passed_s = to_seconds(now - moved_at_);
     const double change = passed_s / kComesToRestIn_s;
@@ -102,7 +96,7 @@ class Surgeon final : public Component {
 
   void tell_console(Time now) {
     console_told_ = true;
-    auto loan = console_.loan();
+    auto loan = ports_.console.loan();
     write_header(loan->header_(), now, kBaseFrame);
     loan->child_frame_id_(kLeaderFrame);
     assign(loan->transform_(), pose_of(parameters_.console, parameters_.console_rpy));
@@ -111,7 +105,7 @@ class Surgeon final : public Component {
   }
 
   void tell_incision(Time now) {
-    auto loan = incision_.loan();
+    auto loan = ports_.incision.loan();
     write_header(loan->header_(), now, kBaseFrame);
     assign(loan->point_(), Eigen::Vector3d{parameters_.incision.data()});
     loan.publish();
@@ -135,9 +129,9 @@ class Surgeon final : public Component {
   }
 
   void take_hold(Time now) {
-    if (!task_state_.latest() || task_state_.latest()->state_() != "aligned") return;
-    if (!measured_js_.latest()) return;
-    const auto q = joints_of(robot_, *measured_js_.latest());
+    if (!ports_.task_state.latest() || ports_.task_state.latest()->state_() != "aligned") return;
+    if (!ports_.measured_js.latest()) return;
+    const auto q = joints_of(robot_, *ports_.measured_js.latest());
     if (!q) return degraded("measured_js: " + q.error().text);
     q_ = *q;
     start_ = forward_kinematics(robot_, q_);
@@ -157,7 +151,7 @@ class Surgeon final : public Component {
     }
     const JointVector next = q.value_or(q_);
     const double dt = to_seconds(now - moved_at_);
-    auto loan = hand_js_.loan();
+    auto loan = ports_.hand_js.loan();
     write_all_joints(robot_, next, JointVector{(next - q_) / (dt > 0 ? dt : 1)}, now, *loan);
     loan.publish();
     q_ = next;
@@ -175,14 +169,7 @@ class Surgeon final : public Component {
   double pace_ = 1, paused_s_ = 0;                           // of the hand's own time
   Eigen::Isometry3d start_ = Eigen::Isometry3d::Identity();  // leader_T_hand when it took hold
   JointVector q_;
-  Input<msg::TaskState> task_state_;
-  Input<msg::JointState> measured_js_;
-  Input<msg::PoseArray> path_;
-  Output<msg::TransformStamped> console_;
-  Output<msg::PointStamped> incision_;
-  Output<msg::JointState> hand_js_;
-  Output<msg::Bool> clutch_;
-  Output<msg::PoseStamped> intended_cp_;
+  Ports ports_;
 };
 
 }  // namespace armature::sim::surgeon

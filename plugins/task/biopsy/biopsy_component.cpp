@@ -12,7 +12,6 @@
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_messages.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
@@ -20,6 +19,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/task/task_ports.hpp"
 #include "biopsy.hpp"
+#include "task_biopsy_ports.hpp"
 
 namespace armature::task::biopsy {
 namespace {
@@ -62,14 +62,10 @@ class BiopsyComponent final : public Component {
         parameters_{Parameters::read(setup.params())},
         robot_{robot_of(setup)},
         task_{parameters_, robot_},
-        plan_{setup.input<msg::NeedlePlan>("plan")},
-        markers_{setup.input<msg::MeasuredMarkers>("markers")},
         ports_{setup},
-        registration_{setup, parameters_.marker_error, parameters_.match_tolerance},
-        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        goal_{setup.output<msg::MotionGoal>("goal")},
-        touched_{setup.output<msg::MeasuredMarkers>("touched")} {
+        task_ports_{ports_.operator_, ports_.state},
+        registration_{ports_.request, ports_.registration, parameters_.marker_error,
+                      parameters_.match_tolerance} {
     if (!parameters_.touch_markers && !setup.is_written("markers")) {
       throw SetupError(
           "nobody writes its input 'markers': add a component that measures markers, or have them "
@@ -79,9 +75,9 @@ class BiopsyComponent final : public Component {
   }
 
   void step(Time now) override {
-    for (const std::string& line : ports_.hear(now, task_.procedure(), [&](const auto& command) {
-           return task_.hear(command, now);
-         })) {
+    for (const std::string& line :
+         task_ports_.hear(now, task_.procedure(),
+                          [&](const auto& command) { return task_.hear(command, now); })) {
       log(line);
     }
     read(now);
@@ -89,7 +85,7 @@ class BiopsyComponent final : public Component {
     publish_touches(now);
     if (task_.wants_registration() && registration_.due(now)) ask(now);
     if (const auto goal = task_.outgoing_goal(now)) {
-      auto loan = goal_.loan();
+      auto loan = ports_.goal.loan();
       write_goal(*goal, now, *loan);
       loan.publish();
     }
@@ -99,12 +95,13 @@ class BiopsyComponent final : public Component {
  private:
   void read(Time now) {
     if (parameters_.touch_markers) read_tip();
-    const bool is_ready = parameters_.touch_markers ? sees_tip_ : markers_.latest() != nullptr;
-    if (!begun_with_ && plan_.latest() && is_ready) {
-      begun_with_ = *plan_.latest();
+    const bool is_ready =
+        parameters_.touch_markers ? sees_tip_ : ports_.markers.latest() != nullptr;
+    if (!begun_with_ && ports_.plan.latest() && is_ready) {
+      begun_with_ = *ports_.plan.latest();
       task_.see_head(line_of(*begun_with_), points_of(begun_with_->markers_()), now);
     }
-    if (begun_with_ && !told_other_plan_ && is_other(*plan_.latest(), *begun_with_)) {
+    if (begun_with_ && !told_other_plan_ && is_other(*ports_.plan.latest(), *begun_with_)) {
       told_other_plan_ = true;
       log("another plan has come; this procedure goes on with the one that it began with");
     }
@@ -116,19 +113,19 @@ class BiopsyComponent final : public Component {
         task_.see_registration(head_of(response), now);
       }
     });
-    for (std::size_t i = 0; i < motion_status_.size(); ++i) {
-      task_.hear(report_of(motion_status_[i]), now);
+    for (std::size_t i = 0; i < ports_.motion_status.size(); ++i) {
+      task_.hear(report_of(ports_.motion_status[i]), now);
     }
   }
 
   void read_tip() {
-    for (std::size_t i = 0; i < measured_js_.size(); ++i) {
-      const auto q = joints_of(robot_, measured_js_[i]);
+    for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) {
+      const auto q = joints_of(robot_, ports_.measured_js[i]);
       if (!q) return degraded("measured_js: " + q.error().text);
       healthy();
       sees_tip_ = true;
       task_.see_tip(forward_kinematics(robot_, *q).translation(),
-                    stamp_of(measured_js_[i].header_().stamp_()));
+                    stamp_of(ports_.measured_js[i].header_().stamp_()));
     }
   }
 
@@ -143,7 +140,7 @@ class BiopsyComponent final : public Component {
     for (const Eigen::Vector3d& place : places) assign(touches_.points_().emplace_back(), place);
     touches_.error_(parameters_.touch_error);
     write_header(touches_.header_(), now, kBaseFrame);
-    touched_.publish(touches_);
+    ports_.touched.publish(touches_);
   }
 
   void tell(const msg::RegistrationResponse& response) {
@@ -155,7 +152,8 @@ class BiopsyComponent final : public Component {
 
   void ask(Time now) {
     const msg::NeedlePlan& plan = *begun_with_;
-    const msg::MeasuredMarkers& markers = parameters_.touch_markers ? touches_ : *markers_.latest();
+    const msg::MeasuredMarkers& markers =
+        parameters_.touch_markers ? touches_ : *ports_.markers.latest();
     if (const auto wrong = wrong_with(markers, kBaseFrame)) {
       return task_.see_refused_registration(*wrong, now);
     }
@@ -175,20 +173,15 @@ class BiopsyComponent final : public Component {
         .step = task_.touching().places().size(),
         .steps = task_.touching().count(),
         .detail = task_.trouble()};
-    if (const auto said = ports_.publish(now, report, report.line(), procedure)) log(*said);
+    if (const auto said = task_ports_.publish(now, report, report.line(), procedure)) log(*said);
   }
 
   Parameters parameters_;
   RobotModel robot_;
   Biopsy task_;
-  Input<msg::NeedlePlan> plan_;
-  Input<msg::MeasuredMarkers> markers_;
-  TaskPorts ports_;
+  Ports ports_;
+  TaskPorts task_ports_;
   RegistrationDialogue registration_;
-  Input<msg::MotionStatus> motion_status_;
-  Input<msg::JointState> measured_js_;
-  Output<msg::MotionGoal> goal_;
-  Output<msg::MeasuredMarkers> touched_;
   msg::MeasuredMarkers touches_;
   std::size_t told_touches_ = 0;
   bool sees_tip_ = false;

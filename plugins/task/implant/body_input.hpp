@@ -13,7 +13,7 @@
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component/component.hpp"
-#include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/component/ports.hpp"
 #include "sighting.hpp"
 
 namespace armature::task::implant {
@@ -23,10 +23,8 @@ namespace armature::task::implant {
 /// fit.
 class BodyInput {
  public:
-  BodyInput(Setup& setup, const std::string& port, std::string body, double max_fit_error_m)
-      : bodies_{setup.input<msg::TrackedBody>(port)},
-        expected_{std::move(body)},
-        max_fit_error_m_{max_fit_error_m} {}
+  BodyInput(Input<msg::TrackedBody> bodies, std::string body, double max_fit_error_m)
+      : bodies_{bodies}, expected_{std::move(body)}, max_fit_error_m_{max_fit_error_m} {}
 
   std::size_t size() const { return bodies_.size(); }
   Sighting operator[](std::size_t i) const { return as(i, expected_); }

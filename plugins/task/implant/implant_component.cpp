@@ -25,6 +25,7 @@
 #include "body_input.hpp"
 #include "implant.hpp"
 #include "plan_messages.hpp"
+#include "task_implant_ports.hpp"
 
 namespace armature::task::implant {
 namespace {
@@ -72,19 +73,13 @@ class ImplantComponent final : public Component {
         robot_{robot_of(setup)},
         mount_{flange_of(robot_)},
         task_{parameters_, robot_, mount_.flange_T_tool},
-        flange_{setup, "flange", parameters_.flange_body, parameters_.max_fit_error},
-        jaw_{setup, "jaw", parameters_.jaw_body, parameters_.max_fit_error},
-        pivot_{setup, "pivot", parameters_.pivot_body, parameters_.max_fit_error},
-        handpiece_js_{setup.input<msg::JointState>("handpiece_js")},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        plan_{setup.input<msg::ImplantPlan>("plan")},
-        markers_{setup.input<msg::MeasuredMarkers>("markers")},
-        registration_{setup, parameters_.marker_error, parameters_.match_tolerance},
-        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
-        goal_{setup.output<msg::MotionGoal>("goal")},
-        estimate_{setup.output<msg::TFMessage>("estimate")},
-        thread_{setup.output<msg::ThreadAxis>("thread")},
-        ports_{setup} {
+        ports_{setup},
+        flange_{ports_.flange, parameters_.flange_body, parameters_.max_fit_error},
+        jaw_{ports_.jaw, parameters_.jaw_body, parameters_.max_fit_error},
+        pivot_{ports_.pivot, parameters_.pivot_body, parameters_.max_fit_error},
+        registration_{ports_.request, ports_.registration, parameters_.marker_error,
+                      parameters_.match_tolerance},
+        task_ports_{ports_.operator_, ports_.state} {
     setup.activate_every(kPeriod);
   }
 
@@ -92,17 +87,17 @@ class ImplantComponent final : public Component {
     if (!begun_) task_.begin(now);
     begun_ = true;
     const auto obey = [&](const auto& command) { return task_.hear(command, now); };
-    for (const std::string& line : ports_.hear(now, task_.procedure(), obey)) log(line);
+    for (const std::string& line : task_ports_.hear(now, task_.procedure(), obey)) log(line);
     read_arm();
-    const msg::JointState* handpiece = handpiece_js_.latest();
+    const msg::JointState* handpiece = ports_.handpiece_js.latest();
     if (handpiece && !handpiece->position_().empty()) {
       task_.see_handpiece(handpiece->position_().front(), stamp_of(handpiece->header_().stamp_()));
     }
     read(now);
     task_.update(now);
-    if (markers_.latest() && task_.wants_registration() && registration_.due(now)) ask(now);
+    if (ports_.markers.latest() && task_.wants_registration() && registration_.due(now)) ask(now);
     if (const auto goal = task_.outgoing_goal(now)) {
-      auto loan = goal_.loan();
+      auto loan = ports_.goal.loan();
       write_goal(*goal, now, *loan);
       loan.publish();
     }
@@ -132,8 +127,8 @@ class ImplantComponent final : public Component {
 
  private:
   void read_arm() {
-    for (std::size_t i = 0; i < measured_js_.size(); ++i) {
-      const auto q = joints_of(robot_, measured_js_[i]);
+    for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) {
+      const auto q = joints_of(robot_, ports_.measured_js[i]);
       if (!q) return degraded("measured_js: " + q.error().text);
       healthy();
       task_.see_arm(forward_kinematics(robot_, *q, mount_.frame));
@@ -142,8 +137,8 @@ class ImplantComponent final : public Component {
 
   void read(Time now) {
     read_plan();
-    for (std::size_t i = 0; i < motion_status_.size(); ++i) {
-      task_.hear(report_of(motion_status_[i]), now);
+    for (std::size_t i = 0; i < ports_.motion_status.size(); ++i) {
+      task_.hear(report_of(ports_.motion_status[i]), now);
     }
     for (std::size_t i = 0; i < pivot_.size(); ++i) {
       task_.see_drill_in_hand(pivot_[i]);
@@ -162,18 +157,18 @@ class ImplantComponent final : public Component {
 
   /// Markers and sites that belong together are those of one plan.
   void read_plan() {
-    if (!plan_.latest()) return;
+    if (!ports_.plan.latest()) return;
     if (!begun_with_) {
-      begun_with_ = *plan_.latest();
+      begun_with_ = *ports_.plan.latest();
       task_.see_plan(sites_of(*begun_with_), implants_of(*begun_with_));
     }
-    if (told_other_plan_ || !is_other(*plan_.latest(), *begun_with_)) return;
+    if (told_other_plan_ || !is_other(*ports_.plan.latest(), *begun_with_)) return;
     told_other_plan_ = true;
     log("another plan has come; this procedure goes on with the one that it began with");
   }
 
   void ask(Time now) {
-    const msg::MeasuredMarkers& markers = *markers_.latest();
+    const msg::MeasuredMarkers& markers = *ports_.markers.latest();
     if (const auto wrong = wrong_with(markers, kJawFrame)) {
       return task_.see_refused_registration(*wrong);
     }
@@ -194,7 +189,7 @@ class ImplantComponent final : public Component {
     write_chain(task_.guidance().chain(), now, estimate);
     if (const auto driver = task_.guidance().driver_chain())
       write_tool(*driver, kDriver, now, estimate);
-    estimate_.publish(estimate);
+    ports_.estimate.publish(estimate);
   }
 
   void publish_thread(Time now) {
@@ -203,7 +198,7 @@ class ImplantComponent final : public Component {
     msg::ThreadAxis message;
     write_header(message.header_(), now, kBaseFrame);
     write_thread(task_.thread(), message);
-    thread_.publish(message);
+    ports_.thread.publish(message);
   }
 
   void publish_state(Time now) {
@@ -214,7 +209,7 @@ class ImplantComponent final : public Component {
         .step = calibrating ? static_cast<std::size_t>(calibration.number()) : 0,
         .steps = calibrating ? static_cast<std::size_t>(calibration.count()) : 0,
         .detail = task_.trouble()};
-    const auto said = ports_.publish(now, report, report.line(), task_.procedure());
+    const auto said = task_ports_.publish(now, report, report.line(), task_.procedure());
     if (said) log(*said);
   }
 
@@ -223,18 +218,12 @@ class ImplantComponent final : public Component {
   Flange mount_;
   Implant task_;
   bool begun_ = false, published_ = false, engaged_ = false;
+  Ports ports_;
   BodyInput flange_, jaw_, pivot_;
-  Input<msg::JointState> handpiece_js_, measured_js_;
-  Input<msg::ImplantPlan> plan_;
   std::optional<msg::ImplantPlan> begun_with_;
   bool told_other_plan_ = false;
-  Input<msg::MeasuredMarkers> markers_;
   RegistrationDialogue registration_;
-  Input<msg::MotionStatus> motion_status_;
-  Output<msg::MotionGoal> goal_;
-  Output<msg::TFMessage> estimate_;
-  Output<msg::ThreadAxis> thread_;
-  TaskPorts ports_;
+  TaskPorts task_ports_;
 };
 
 }  // namespace armature::task::implant

@@ -17,6 +17,7 @@
 #include "lamp_alignment.hpp"
 #include "search_coverage.hpp"
 #include "search_poses.hpp"
+#include "task_lamp_alignment_ports.hpp"
 
 namespace armature::task::lamp_alignment {
 namespace {
@@ -64,20 +65,14 @@ class LampAlignmentComponent : public Component {
       : Component(setup),
         task_{parameters_of(setup.params()), robot_of(setup).joints().back().a},
         coverage_{coverage_of(setup, parameters_of(setup.params()))},
-        target_{setup.input<msg::Target>("target")},
-        landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
-        face_{setup.input<msg::FacePose>("face")},
-        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
-        goal_{setup.output<msg::MotionGoal>("goal")},
-        light_level_{setup.output<msg::LightLevel>("light_level")},
-        capture_{setup.output<msg::Capture>("capture")},
-        ports_{setup} {
+        ports_{setup},
+        task_ports_{ports_.operator_, ports_.state} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
     const auto obey = [&](const auto& command) { return task_.hear(command, now); };
-    for (const std::string& line : ports_.hear(now, task_.procedure(), obey)) log(line);
+    for (const std::string& line : task_ports_.hear(now, task_.procedure(), obey)) log(line);
     read(now);
     task_.step(now);
     send_goal(now);
@@ -91,20 +86,20 @@ class LampAlignmentComponent : public Component {
 
  private:
   void read(Time now) {
-    for (std::size_t i = 0; i < motion_status_.size(); ++i) {
-      task_.hear(report_of(motion_status_[i]), now);
+    for (std::size_t i = 0; i < ports_.motion_status.size(); ++i) {
+      task_.hear(report_of(ports_.motion_status[i]), now);
     }
-    for (std::size_t i = 0; i < landmarks_.size(); ++i) {
-      const msg::FaceLandmarks& seen = landmarks_[i];
+    for (std::size_t i = 0; i < ports_.landmarks.size(); ++i) {
+      const msg::FaceLandmarks& seen = ports_.landmarks[i];
       task_.see(Picture{.stamp = stamp_of(seen.header_().stamp_()),
                         .face = seen.valid_(),
                         .image_intensity = seen.image_intensity_(),
                         .face_intensity = seen.face_intensity_()},
                 now);
     }
-    for (std::size_t i = 0; i < face_.size(); ++i) task_.see(verdict_of(face_[i]));
-    for (std::size_t i = 0; i < target_.size(); ++i) {
-      const auto face = estimate_of(target_[i]);
+    for (std::size_t i = 0; i < ports_.face.size(); ++i) task_.see(verdict_of(ports_.face[i]));
+    for (std::size_t i = 0; i < ports_.target.size(); ++i) {
+      const auto face = estimate_of(ports_.target[i]);
       if (!face) {
         task_.see_no_estimate(face.error().text);
         continue;
@@ -121,14 +116,14 @@ class LampAlignmentComponent : public Component {
   void send_goal(Time now) {
     const auto goal = task_.outgoing_goal(now);
     if (!goal) return;
-    auto loan = goal_.loan();
+    auto loan = ports_.goal.loan();
     write_goal(*goal, now, *loan);
     loan.publish();
   }
 
   void send_light_and_capture(Time now) {
     if (const auto level = task_.take_light_level()) {
-      auto loan = light_level_.loan();
+      auto loan = ports_.light_level.loan();
       write_header(loan->header_(), now);
       loan->level_(*level);
       loan.publish();
@@ -136,7 +131,7 @@ class LampAlignmentComponent : public Component {
     }
     if (sent_capture_ == task_.capture()) return;
     sent_capture_ = task_.capture();
-    auto loan = capture_.loan();
+    auto loan = ports_.capture.loan();
     write_header(loan->header_(), now);
     loan->on_(*sent_capture_);
     loan.publish();
@@ -151,20 +146,14 @@ class LampAlignmentComponent : public Component {
                             .step = searching ? task_.view() : 0,
                             .steps = searching ? task_.views() : 0,
                             .detail = task_.trouble()};
-    const auto said = ports_.publish(now, report, line, task_.procedure());
+    const auto said = task_ports_.publish(now, report, line, task_.procedure());
     if (said) log(*said);
   }
 
   LampAlignment task_;
   std::optional<SearchCoverage> coverage_;
-  Input<msg::Target> target_;
-  Input<msg::FaceLandmarks> landmarks_;
-  Input<msg::FacePose> face_;
-  Input<msg::MotionStatus> motion_status_;
-  Output<msg::MotionGoal> goal_;
-  Output<msg::LightLevel> light_level_;
-  Output<msg::Capture> capture_;
-  TaskPorts ports_;
+  Ports ports_;
+  TaskPorts task_ports_;
   std::optional<bool> sent_capture_;
 };
 

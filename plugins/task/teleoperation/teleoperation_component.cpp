@@ -12,6 +12,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/task/task_ports.hpp"
 #include "hand_period.hpp"
+#include "task_teleoperation_ports.hpp"
 #include "teleoperation.hpp"
 
 namespace armature::task::teleoperation {
@@ -29,16 +30,8 @@ class TeleoperationComponent final : public Component {
         task_{parameters_},
         trails_{fmt::format("the instrument trails its target by more than {:g} mm",
                             1e3 * parameters_.trailing)},
-        console_{setup.input<msg::TransformStamped>("console")},
-        leader_cp_{setup.input<msg::PoseStamped>("leader_cp")},
-        follower_cp_{setup.input<msg::PoseStamped>("follower_cp")},
-        clutch_{setup.input<msg::Bool>("clutch")},
-        incision_{setup.input<msg::PointStamped>("incision")},
-        leader_status_{setup.input<msg::MotionStatus>("leader_status")},
-        follower_status_{setup.input<msg::MotionStatus>("follower_status")},
-        leader_goal_{setup.output<msg::MotionGoal>("leader_goal")},
-        follower_goal_{setup.output<msg::MotionGoal>("follower_goal")},
-        ports_{setup} {
+        ports_{setup},
+        task_ports_{ports_.operator_, ports_.state} {
     setup.activate_every(kPeriod);
     const TremorFilter& filter = task_.filter();
     log(fmt::format("the follower trails {:.1f} ms behind the hand; 10 Hz is down by {:.1f} dB",
@@ -46,20 +39,20 @@ class TeleoperationComponent final : public Component {
   }
 
   void step(Time now) override {
-    for (std::size_t i = 0; i < leader_status_.size(); ++i) {
-      task_.hear_leader(report_of(leader_status_[i]), now);
+    for (std::size_t i = 0; i < ports_.leader_status.size(); ++i) {
+      task_.hear_leader(report_of(ports_.leader_status[i]), now);
     }
-    for (std::size_t i = 0; i < follower_status_.size(); ++i) {
-      task_.hear_follower(report_of(follower_status_[i]));
+    for (std::size_t i = 0; i < ports_.follower_status.size(); ++i) {
+      task_.hear_follower(report_of(ports_.follower_status[i]));
     }
-    for (const std::string& line : ports_.hear(
+    for (const std::string& line : task_ports_.hear(
              now, task_.procedure(), [this](const auto& command) { return task_.hear(command); })) {
       log(line);
     }
     task_.see(view(), now);
     show_health();
-    send(task_.outgoing_leader_goal(now), leader_goal_, now);
-    send(task_.outgoing_follower_goal(), follower_goal_, now);
+    send(task_.outgoing_leader_goal(now), ports_.leader_goal, now);
+    send(task_.outgoing_follower_goal(), ports_.follower_goal, now);
     publish_state(now);
   }
 
@@ -78,12 +71,14 @@ class TeleoperationComponent final : public Component {
       }
       return found;
     };
-    ConsoleView view{.follower_T_leader = pose_of(console_, "the console"),
-                     .leader_T_hand = pose_of(leader_cp_, "the leader"),
-                     .follower_T_tool = pose_of(follower_cp_, "the follower's tool")};
-    if (view.leader_T_hand) view.hand_stamp = stamp_of(leader_cp_.latest()->header_().stamp_());
-    if (clutch_.latest()) view.clutch_closed = clutch_.latest()->data_();
-    if (const msg::PointStamped* incision = incision_.latest()) {
+    ConsoleView view{.follower_T_leader = pose_of(ports_.console, "the console"),
+                     .leader_T_hand = pose_of(ports_.leader_cp, "the leader"),
+                     .follower_T_tool = pose_of(ports_.follower_cp, "the follower's tool")};
+    if (view.leader_T_hand) {
+      view.hand_stamp = stamp_of(ports_.leader_cp.latest()->header_().stamp_());
+    }
+    if (ports_.clutch.latest()) view.clutch_closed = ports_.clutch.latest()->data_();
+    if (const msg::PointStamped* incision = ports_.incision.latest()) {
       const Eigen::Vector3d point = to_eigen(incision->point_());
       const ReasonText wrong = defect_of_point(incision->header_(), point, "the incision");
       if (wrong.empty()) {
@@ -117,7 +112,7 @@ class TeleoperationComponent final : public Component {
 
   void publish_state(Time now) {
     const TaskReport report{.state = to_string(task_.phase()), .detail = task_.trouble()};
-    const auto said = ports_.publish(now, report, report.line(), task_.procedure());
+    const auto said = task_ports_.publish(now, report, report.line(), task_.procedure());
     if (said) log(*said);
   }
 
@@ -125,13 +120,8 @@ class TeleoperationComponent final : public Component {
   Teleoperation task_;
   std::string trails_;             // what is said of an instrument that does
   std::string bad_, shown_wrong_;  // what was told badly
-  Input<msg::TransformStamped> console_;
-  Input<msg::PoseStamped> leader_cp_, follower_cp_;
-  Input<msg::Bool> clutch_;
-  Input<msg::PointStamped> incision_;
-  Input<msg::MotionStatus> leader_status_, follower_status_;
-  Output<msg::MotionGoal> leader_goal_, follower_goal_;
-  TaskPorts ports_;
+  Ports ports_;
+  TaskPorts task_ports_;
 };
 
 }  // namespace armature::task::teleoperation

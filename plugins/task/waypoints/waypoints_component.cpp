@@ -8,13 +8,13 @@
 #include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/sensor_msgs.hpp"
 #include "armature/motion/goal_messages.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/task/task_ports.hpp"
+#include "task_waypoints_ports.hpp"
 #include "tour.hpp"
 
 namespace armature::task::waypoints {
@@ -62,25 +62,23 @@ class WaypointsComponent final : public Component {
       : Component{setup},
         robot_{robot_of(setup)},
         tour_{tour_of(setup.params(), robot_)},
-        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
-        measured_js_{setup.input<msg::JointState>("measured_js")},
-        goal_{setup.output<msg::MotionGoal>("goal")},
-        ports_{setup} {
+        ports_{setup},
+        task_ports_{ports_.operator_, ports_.state} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
     if (!start_) start_ = now;
-    for (std::size_t i = 0; i < motion_status_.size(); ++i) {
-      tour_.hear(report_of(motion_status_[i]), now);
+    for (std::size_t i = 0; i < ports_.motion_status.size(); ++i) {
+      tour_.hear(report_of(ports_.motion_status[i]), now);
     }
-    for (const std::string& line : ports_.hear(
+    for (const std::string& line : task_ports_.hear(
              now, tour_.procedure(), [this](const auto& command) { return tour_.hear(command); })) {
       log(line);
     }
     see_arm();
     if (const auto goal = tour_.outgoing_goal(now)) {
-      auto loan = goal_.loan();
+      auto loan = ports_.goal.loan();
       write_goal(*goal, now, *loan);
       loan.publish();
     }
@@ -110,8 +108,8 @@ class WaypointsComponent final : public Component {
 
  private:
   void see_arm() {
-    if (!measured_js_.fresh()) return;
-    const auto q = joints_of(robot_, *measured_js_.latest());
+    if (!ports_.measured_js.fresh()) return;
+    const auto q = joints_of(robot_, *ports_.measured_js.latest());
     if (!q) return degraded("measured_js: " + q.error().text);
     healthy();
     const Vector3d axis = robot_.pointing_axis().value_or(Vector3d::UnitZ());
@@ -128,15 +126,13 @@ class WaypointsComponent final : public Component {
     const std::string line = under_way
                                  ? fmt::format("{} {}/{}", report.state, report.step, report.steps)
                                  : report.line();
-    if (const auto said = ports_.publish(now, report, line, tour_.procedure())) log(*said);
+    if (const auto said = task_ports_.publish(now, report, line, tour_.procedure())) log(*said);
   }
 
   RobotModel robot_;
   Tour tour_;
-  Input<msg::MotionStatus> motion_status_;
-  Input<msg::JointState> measured_js_;
-  Output<msg::MotionGoal> goal_;
-  TaskPorts ports_;
+  Ports ports_;
+  TaskPorts task_ports_;
   std::optional<Time> start_;
 };
 

@@ -12,6 +12,7 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
+#include "host_face_pose_ports.hpp"
 #include "row_drift.hpp"
 
 namespace armature::host::face_pose {
@@ -56,11 +57,7 @@ class FacePoseHost final : public Component {
       : Component{setup},
         estimator_{setup.slot<FacePoseEstimator>("face_pose")},
         finder_{setup.optional_slot<LandmarkFinder>("landmarks")},
-        left_image_{setup.input<msg::Image>("left_image")},
-        right_image_{setup.input<msg::Image>("right_image")},
-        landmarks_{setup.input<msg::FaceLandmarks>("landmarks")},
-        right_info_{setup.input<msg::CameraInfo>("right_info")},
-        face_{setup.output<msg::FacePose>("face")},
+        ports_{setup},
         row_drift_{Parameters::read(setup.params())} {}
 
   void step(Time now) override;
@@ -74,10 +71,7 @@ class FacePoseHost final : public Component {
   Slot<FacePoseEstimator> estimator_;
   std::optional<Slot<LandmarkFinder>> finder_;
   PluginState state_;
-  Input<msg::Image> left_image_, right_image_;
-  Input<msg::FaceLandmarks> landmarks_;
-  Input<msg::CameraInfo> right_info_;
-  Output<msg::FacePose> face_;
+  Ports ports_;
   FrozenCameras cameras_;
   RowDrift row_drift_;
   std::optional<FrozenCameras::Frozen> frozen_;  // the last pair, which is no pair then
@@ -88,16 +82,19 @@ class FacePoseHost final : public Component {
 Expected<FacePose> FacePoseHost::estimate() {
   using enum FaceRefusal;
   frozen_.reset();
-  const auto left = image_of(*left_image_.latest()), right = image_of(*right_image_.latest());
+  const auto left = image_of(*ports_.left_image.latest());
+  const auto right = image_of(*ports_.right_image.latest());
   if (!left) return refuse(bad_input, "left: " + left.error().text);
   if (!right) return refuse(bad_input, "right: " + right.error().text);
   frozen_ = cameras_.look_at(*left, *right);
   if (frozen_) return refuse(bad_input, frozen_->why);
-  if (!landmarks_.latest()->valid_()) return refuse(no_face, landmarks_.latest()->reason_());
-  if (!right_info_.latest()) return refuse(bad_input, "no camera_info yet");
-  const auto landmarks = landmarks_of(*landmarks_.latest());
+  if (!ports_.landmarks.latest()->valid_()) {
+    return refuse(no_face, ports_.landmarks.latest()->reason_());
+  }
+  if (!ports_.right_info.latest()) return refuse(bad_input, "no camera_info yet");
+  const auto landmarks = landmarks_of(*ports_.landmarks.latest());
   if (!landmarks) return refuse(bad_input, landmarks.error().text);
-  const auto camera = camera_of(*right_info_.latest(), *right);
+  const auto camera = camera_of(*ports_.right_info.latest(), *right);
   if (!camera) return refuse(bad_input, camera.error().text);
   return guarded(state_, [&](PluginState& state) {
     return estimator_->estimate({.left = *left,
@@ -113,7 +110,7 @@ Expected<FacePose> FacePoseHost::estimate() {
 /// once or twice is refused, but is no fault of a camera yet.
 std::optional<std::string> FacePoseHost::trouble() const {
   if (is_frozen()) return frozen_->why;
-  const msg::CameraInfo* info = right_info_.latest();
+  const msg::CameraInfo* info = ports_.right_info.latest();
   if (!info) return std::nullopt;
   return row_drift_.warning(static_cast<int>(info->width_()), static_cast<int>(info->height_()));
 }
@@ -132,16 +129,16 @@ void FacePoseHost::tell(Time now) {
 }
 
 void FacePoseHost::step(Time now) {
-  if (!landmarks_.fresh() || !landmarks_.latest() || !left_image_.latest() ||
-      !right_image_.latest()) {
+  if (!ports_.landmarks.fresh() || !ports_.landmarks.latest() || !ports_.left_image.latest() ||
+      !ports_.right_image.latest()) {
     return;
   }
   const auto estimated = estimate();
   if (estimated && estimated->rows) row_drift_.add(*estimated->rows);
   tell(now);
   const FacePose pose = estimated.value_or(FacePose{});
-  auto face = face_.loan();
-  face->header_() = landmarks_.latest()->header_();
+  auto face = ports_.face.loan();
+  face->header_() = ports_.landmarks.latest()->header_();
   face->valid_(estimated.has_value());
   const Reason reason = estimated ? Reason{} : estimated.error();
   face->reason_(reason.text);

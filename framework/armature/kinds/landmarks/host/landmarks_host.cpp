@@ -9,6 +9,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
 #include "host_landmarks_parameters.hpp"
+#include "host_landmarks_ports.hpp"
 
 namespace armature::host::landmarks {
 namespace {
@@ -36,9 +37,7 @@ class LandmarksHost final : public Component {
         detector_{setup.slot<FaceDetector>("detector")},
         landmark_finder_{setup.slot<LandmarkFinder>("landmarks")},
         finder_{*detector_, *landmark_finder_, options_of(Parameters::read(setup.params()))},
-        left_image_{setup.input<msg::Image>("left_image")},
-        right_image_{setup.input<msg::Image>("right_image")},
-        landmarks_{setup.output<msg::FaceLandmarks>("landmarks")} {}
+        ports_{setup} {}
 
   void step(Time) override;
 
@@ -49,8 +48,7 @@ class LandmarksHost final : public Component {
   Slot<LandmarkFinder> landmark_finder_;
   StereoFaceFinder finder_;
   StereoFaceFinder::State state_;
-  Input<msg::Image> left_image_, right_image_;
-  Output<msg::FaceLandmarks> landmarks_;
+  Ports ports_;
 };
 
 Expected<StereoLandmarks> LandmarksHost::find(const msg::Image& left, const msg::Image& right) {
@@ -63,11 +61,13 @@ Expected<StereoLandmarks> LandmarksHost::find(const msg::Image& left, const msg:
 }
 
 void LandmarksHost::step(Time) {
-  if (!left_image_.fresh() || !left_image_.latest() || !right_image_.latest()) return;
-  const msg::Image& left = *left_image_.latest();
-  const auto found = find(left, *right_image_.latest());
+  if (!ports_.left_image.fresh() || !ports_.left_image.latest() || !ports_.right_image.latest()) {
+    return;
+  }
+  const msg::Image& left = *ports_.left_image.latest();
+  const auto found = find(left, *ports_.right_image.latest());
 
-  auto answer = landmarks_.loan();
+  auto answer = ports_.landmarks.loan();
   answer->header_() = left.header_();
   const auto view = image_of(left);
   answer->image_intensity_(view ? mean_intensity(*view) : 0.0);

@@ -8,8 +8,9 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
+#include "host_markers_ports.hpp"
 
-namespace armature {
+namespace armature::host::markers {
 namespace {
 
 void write(const std::vector<FoundMarker>& found, std::vector<msg::ImageMarker>& messages) {
@@ -29,15 +30,15 @@ class MarkersHost final : public Component {
  public:
   explicit MarkersHost(Setup& setup)
       : Component{setup},
-        volume_{setup},
-        finder_{setup.slot<MarkerFinder>("finder")},
-        markers_{setup.output<msg::ImageMarkers>("markers")} {}
+        ports_{setup},
+        volume_{ports_.volume},
+        finder_{setup.slot<MarkerFinder>("finder")} {}
 
   void step(Time) override {
     const auto volume = volume_.take();
     if (!volume) return;
     const auto found = search(*volume);
-    auto message = markers_.loan();
+    auto message = ports_.markers.loan();
     *message = msg::ImageMarkers{};  // it was used before
     write_header(message->header_(), *volume_.stamp(), kImageFrame);
     message->valid_(found.has_value());
@@ -57,11 +58,11 @@ class MarkersHost final : public Component {
     return guarded([&] { return finder_->find(*volume); });
   }
 
+  Ports ports_;
   AnnouncedVolume volume_;
   Slot<MarkerFinder> finder_;
-  Output<msg::ImageMarkers> markers_;
 };
 
-}  // namespace armature
+}  // namespace armature::host::markers
 
-ARMATURE_PLUGIN(armature::MarkersHost);
+ARMATURE_PLUGIN(armature::host::markers::MarkersHost);

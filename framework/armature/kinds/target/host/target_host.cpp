@@ -12,6 +12,7 @@
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
 #include "host_target_parameters.hpp"
+#include "host_target_ports.hpp"
 
 namespace armature::host::target {
 namespace {
@@ -44,9 +45,7 @@ class TargetHost final : public Component {
   Slot<TargetFilter> filter_;
   PluginState state_;
   std::string arm_trouble_, history_trouble_;
-  Input<msg::FacePose> face_;
-  Input<msg::JointState> measured_js_;
-  Output<msg::Target> target_;
+  Ports ports_;
 };
 
 TargetHost::TargetHost(Setup& setup)
@@ -56,14 +55,12 @@ TargetHost::TargetHost(Setup& setup)
       mount_{mount_of(rig_, robot_)},
       history_{robot_, samples_of(Parameters::read(setup.params()))},
       filter_{setup.slot<TargetFilter>("target")},
-      face_{setup.input<msg::FacePose>("face")},
-      measured_js_{setup.input<msg::JointState>("measured_js")},
-      target_{setup.output<msg::Target>("target")} {}
+      ports_{setup} {}
 
 void TargetHost::step(Time) {
-  for (std::size_t i = 0; i < measured_js_.size(); ++i) remember(measured_js_[i]);
-  for (std::size_t i = 0; i < face_.size(); ++i) {
-    publish(stamp_of(face_[i].header_().stamp_()), updated(face_[i]));
+  for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) remember(ports_.measured_js[i]);
+  for (std::size_t i = 0; i < ports_.face.size(); ++i) {
+    publish(stamp_of(ports_.face[i].header_().stamp_()), updated(ports_.face[i]));
   }
   tell_trouble();
 }
@@ -124,7 +121,7 @@ Expected<TargetEstimate> TargetHost::updated(const msg::FacePose& face) {
 }
 
 void TargetHost::publish(Time stamp, const Expected<TargetEstimate>& estimate) {
-  auto target = target_.loan();
+  auto target = ports_.target.loan();
   if (estimate) {
     write_estimate(*estimate, *target);
   } else {

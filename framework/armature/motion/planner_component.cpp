@@ -24,13 +24,7 @@ MotionPlanner::MotionPlanner(Setup& setup)
     : Component(setup),
       model_{robot_of(setup)},
       solver_model_{solver_model_of(setup.params(), model_)},
-      goals_{setup.input<msg::MotionGoal>("goal")},
-      requests_{setup.input<msg::MotionPlanRequest>("plan_request")},
-      plan_{setup.output<msg::MotionPlan>("plan")},
-      path_out_{setup.output<msg::ToolPath>("path")},
-      joint_path_out_{setup.output<msg::JointTrajectory>("joint_path")},
-      joint_trajectory_out_{setup.output<msg::JointTrajectory>("joint_trajectory")},
-      trajectory_out_{setup.output<msg::QuinticTrajectory>("trajectory")},
+      ports_{setup},
       planner_{model_,
                {.path = setup.slot<PathPlanner>("path", model_),
                 .ik = setup.slot<IkSolver>("ik", solver_model_),
@@ -43,9 +37,9 @@ MotionPlanner::MotionPlanner(Setup& setup)
 }
 
 void MotionPlanner::step(Time) {
-  for (std::size_t i = 0; i < goals_.size(); ++i) known_.push_back(goals_[i]);
+  for (std::size_t i = 0; i < ports_.goal.size(); ++i) known_.push_back(ports_.goal[i]);
   while (known_.size() > kKnownGoals) known_.pop_front();
-  if (requests_.fresh()) wanted_ = read_request(*requests_.latest());
+  if (ports_.plan_request.fresh()) wanted_ = read_request(*ports_.plan_request.latest());
   if (!wanted_) return;
   // Both units hear of a goal by themselves: its request may be here first.
   const msg::MotionGoal* goal = find(wanted_->goal_id);
@@ -68,7 +62,7 @@ void MotionPlanner::answer(const PlanRequest& request, const msg::MotionGoal& me
       !goal ? WayLegResult{tl::unexpected{PlanFailure{"accept", goal.error().text}}}
       : goal->mode == MotionMode::planned ? plan(request, *goal)
                                           : change_way(request, *goal);
-  auto answer = plan_.loan();
+  auto answer = ports_.plan.loan();
   write_answer(request, leg, *answer);
   answer.publish();
   if (planned_) publish_path(*planned_);
@@ -92,19 +86,19 @@ WayLegResult MotionPlanner::change_way(const PlanRequest& request, const MotionG
 }
 
 void MotionPlanner::publish_path(const Plan& plan) {
-  auto path = path_out_.loan();
+  auto path = ports_.path.loan();
   write_path(plan, model_, *path);
   path.publish();
-  auto joint_path = joint_path_out_.loan();
+  auto joint_path = ports_.joint_path.loan();
   write_joint_path(plan, model_, *joint_path);
   joint_path.publish();
 }
 
 void MotionPlanner::publish_trajectory(const Trajectory& trajectory) {
-  auto pieces = trajectory_out_.loan();
+  auto pieces = ports_.trajectory.loan();
   write_trajectory(trajectory, model_, *pieces);
   pieces.publish();
-  auto points = joint_trajectory_out_.loan();
+  auto points = ports_.joint_trajectory.loan();
   write_trajectory_points(trajectory, model_, *points);
   points.publish();
 }

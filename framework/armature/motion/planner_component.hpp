@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "armature/messages/armature_msgs.hpp"
-#include "armature/messages/trajectory_msgs.hpp"
 #include "armature/motion/goal_planner.hpp"
 #include "armature/motion/plan_exchange.hpp"
 #include "armature/motion/way.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
+#include "motion_ports.hpp"
 
 namespace armature {
 
@@ -31,12 +31,7 @@ class MotionPlanner final : public Component {
   void publish_trajectory(const Trajectory& trajectory);
 
   RobotModel model_, solver_model_;
-  Input<msg::MotionGoal> goals_;
-  Input<msg::MotionPlanRequest> requests_;
-  Output<msg::MotionPlan> plan_;
-  Output<msg::ToolPath> path_out_;
-  Output<msg::JointTrajectory> joint_path_out_, joint_trajectory_out_;
-  Output<msg::QuinticTrajectory> trajectory_out_;
+  motion::PlannerPorts ports_;
   GoalPlanner planner_;
   Ways ways_;
   std::optional<Plan> planned_;        // whose path is still to be told

@@ -3,12 +3,12 @@
 #include "armature/kinds/command_watch.hpp"
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/messages/std_msgs.hpp"
 #include "armature/robot/trajectories/short_trajectory.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "@TARGET@_parameters.hpp"  // made from plugin.yaml
+#include "@TARGET@_ports.hpp"
 
 namespace @NAMESPACE@ {
 namespace {
@@ -42,24 +42,22 @@ class @CLASS@Arm final : public Component {
         robot_{robot_of(setup)},
         device_{resting_position(robot_)},
         watch_{robot_, seconds(parameters_.command_timeout), seconds(1 / parameters_.rate)},
-        servo_jp_{setup.input<msg::JointState>("servo_jp")},
-        measured_js_{setup.output<msg::JointState>("measured_js")},
-        operating_state_{setup.output<msg::String>("operating_state")} {
+        ports_{setup} {
     setup.activate_every(seconds(1 / parameters_.rate));
   }
 
   void step(Time now) override {
-    if (servo_jp_.fresh()) read(*servo_jp_.latest());
+    if (ports_.servo_jp.fresh()) read(*ports_.servo_jp.latest());
     if (watch_.follows(now, command_, device_.position())) {
       ramp_.reset();
-      if (servo_jp_.fresh() && refusal_.empty()) device_.move(command_->q, command_->v);
+      if (ports_.servo_jp.fresh() && refusal_.empty()) device_.move(command_->q, command_->v);
     } else if (command_) {
       ramp_down(now);
     }
-    auto measured = measured_js_.loan();
+    auto measured = ports_.measured_js.loan();
     write_all_joints(robot_, device_.position(), device_.velocity(), now, *measured);
     measured.publish();
-    auto state = operating_state_.loan();
+    auto state = ports_.operating_state.loan();
     state->data_() = device_.operating_state();
     state.publish();
     const ReasonText& trouble = refusal_.empty() ? watch_.why() : refusal_;
@@ -101,9 +99,7 @@ class @CLASS@Arm final : public Component {
   RobotModel robot_;
   Device device_;
   CommandWatch watch_;
-  Input<msg::JointState> servo_jp_;
-  Output<msg::JointState> measured_js_;
-  Output<msg::String> operating_state_;
+  Ports ports_;
   std::optional<ServoCommand> command_;  // the last good one
   std::optional<ShortTrajectory> ramp_;
   ReasonText refusal_;

@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "@TARGET@_parameters.hpp"  // made from plugin.yaml
+#include "@TARGET@_ports.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/runtime/component/component.hpp"
@@ -16,15 +17,14 @@ class @CLASS@ final : public Component {
   explicit @CLASS@(Setup& setup)
       : Component{setup},
         parameters_{Parameters::read(setup.params())},
-        image_{setup.output<msg::Image>("image")},
-        info_{setup.output<msg::CameraInfo>("info")},
+        ports_{setup},
         pictures_{setup.driver_thread<Picture>(kWaiting, [this] { read(); })} {}
 
   /// Once for every picture, or for several that came together. Must not wait.
   void step(Time now) override {
     while (auto picture = pictures_.take()) {
       if (published_++ == 0) publish_info(picture->stamp);
-      auto image = image_.loan();
+      auto image = ports_.image.loan();
       write_header(image->header_(), picture->stamp, parameters_.frame);
       image->width_() = image->step_() = static_cast<std::uint32_t>(parameters_.width);
       image->height_() = static_cast<std::uint32_t>(parameters_.height);
@@ -79,12 +79,11 @@ class @CLASS@ final : public Component {
     info.k_() = {f, 0, cx, 0, f, cy, 0, 0, 1};
     info.r_() = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     info.p_() = {f, 0, cx, 0, 0, f, cy, 0, 0, 0, 1, 0};
-    info_.publish(info);
+    ports_.info.publish(info);
   }
 
   Parameters parameters_;
-  Output<msg::Image> image_;
-  Output<msg::CameraInfo> info_;
+  Ports ports_;
   DriverQueue<Picture>& pictures_;
   int row_ = 0;  // of the driver thread
   std::int64_t published_ = 0;

@@ -3,9 +3,9 @@
 #include <optional>
 
 #include "@TARGET@_parameters.hpp"  // made from plugin.yaml
+#include "@TARGET@_ports.hpp"
 #include "armature/messages/geometry_msgs.hpp"
 #include "armature/messages/stamp.hpp"
-#include "armature/messages/std_msgs.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
@@ -15,16 +15,13 @@ class @CLASS@ final : public Component {
  public:
   /// Takes what plugin.yaml declares: parameters, inputs and outputs.
   explicit @CLASS@(Setup& setup)
-      : Component{setup},
-        parameters_{Parameters::read(setup.params())},
-        tool_pose_{setup.input<msg::PoseStamped>("tool_pose")},
-        tool_speed_{setup.output<msg::Float64>("tool_speed")} {}
+      : Component{setup}, parameters_{Parameters::read(setup.params())}, ports_{setup} {}
 
   /// Once for every message, or for several that came together. Must not wait.
   void step(Time) override {
-    for (std::size_t i = 0; i < tool_pose_.size(); ++i) take(tool_pose_[i]);
+    for (std::size_t i = 0; i < ports_.tool_pose.size(); ++i) take(ports_.tool_pose[i]);
     top_speed_ = std::max(top_speed_, speed_);
-    auto message = tool_speed_.loan();
+    auto message = ports_.tool_speed.loan();
     message->data_() = speed_;
     message.publish();
   }
@@ -54,8 +51,7 @@ class @CLASS@ final : public Component {
     Eigen::Vector3d position;
   };
   Parameters parameters_;
-  Input<msg::PoseStamped> tool_pose_;
-  Output<msg::Float64> tool_speed_;
+  Ports ports_;
   std::optional<Seen> last_;
   double speed_ = 0, top_speed_ = 0;
 };

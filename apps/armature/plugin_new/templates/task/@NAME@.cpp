@@ -1,4 +1,5 @@
 #include "@TARGET@_parameters.hpp"  // made from plugin.yaml
+#include "@TARGET@_ports.hpp"
 #include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/motion/goal_messages.hpp"
@@ -12,10 +13,7 @@ namespace @NAMESPACE@ {
 /// There and back. What a goal needs besides (its number, another try) PursuedGoal knows.
 class @CLASS@ final : public Component {
  public:
-  explicit @CLASS@(Setup& setup)
-      : Component{setup},
-        motion_status_{setup.input<msg::MotionStatus>("motion_status")},
-        goal_{setup.output<msg::MotionGoal>("goal")} {
+  explicit @CLASS@(Setup& setup) : Component{setup}, ports_{setup} {
     const RobotModel robot = robot_of(setup);
     const Eigen::Isometry3d home = forward_kinematics(robot, resting_position(robot));
     poses_[1] = {home.translation(), Eigen::Quaterniond{home.linear()}};
@@ -30,8 +28,8 @@ class @CLASS@ final : public Component {
 
   void step(Time now) override {
     if (!start_) return void(start_ = now);  // first the arm tells where it is
-    for (std::size_t i = 0; i < motion_status_.size(); ++i)
-      pursued_.hear(report_of(motion_status_[i]), now);
+    for (std::size_t i = 0; i < ports_.motion_status.size(); ++i)
+      pursued_.hear(report_of(ports_.motion_status[i]), now);
     if (pursued_.state() == PursuedGoal::State::done && !done_s_) {
       if (++reached_ < poses_.size()) {
         pursued_.set(goal_at(poses_[reached_]));
@@ -41,7 +39,7 @@ class @CLASS@ final : public Component {
       log("pose " + std::to_string(reached_) + " of " + std::to_string(poses_.size()) + " reached");
     }
     if (const auto goal = pursued_.outgoing(now)) {
-      auto message = goal_.loan();
+      auto message = ports_.goal.loan();
       write_goal(*goal, now, *message);
       message.publish();
     }
@@ -64,8 +62,7 @@ class @CLASS@ final : public Component {
     return goal;
   }
 
-  Input<msg::MotionStatus> motion_status_;
-  Output<msg::MotionGoal> goal_;
+  Ports ports_;
   std::array<ToolPose, 2> poses_;
   std::size_t reached_ = 0;
   PursuedGoal pursued_;

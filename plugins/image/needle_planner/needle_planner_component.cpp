@@ -75,12 +75,12 @@ class NeedlePlanner final : public Component {
 
   void step(Time) override {
     const auto stamp = volume_.stamp();
-    if (!stamp || !ports_.markers.latest()) return;
-    if (stamp_of(ports_.markers.latest()->header_().stamp_()) != *stamp)
-      return;  // of another volume
+    const msg::ImageMarkers* markers = ports_.markers.latest();
+    if (!stamp || !markers) return;
+    if (stamp_of(markers->header_().stamp_()) != *stamp) return;  // of another volume
     const auto volume = volume_.take();
     if (!volume) return;
-    const auto planned = plan_on(*volume, *ports_.markers.latest());
+    const auto planned = plan_on(*volume, *markers);
     refusal_ = planned ? "" : planned.error().text;
     publish_ways(planned, *stamp);
     if (!planned) return degraded(refusal_);

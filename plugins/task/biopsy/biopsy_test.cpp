@@ -423,10 +423,10 @@ TEST_F(OperatedBiopsyTest, BackFromABreakdownGoesToTheStopBefore) {
 TEST_F(OperatedBiopsyTest, AWayThatIsRefusedBeforeAnythingMovedIsAskedForAgain) {
   say("confirm", "approach");
   const MotionGoal first = sent();
-  fail("accept", "the arm was stopped and rearmed since");
+  fail("stop", "give it again to go on");
   expect_no_goal();
   EXPECT_EQ(asked(), "approach");
-  EXPECT_EQ(task_->trouble(), "accept: the arm was stopped and rearmed since");
+  EXPECT_EQ(task_->trouble(), "stop: give it again to go on");
   EXPECT_EQ(say("confirm", "approach"), "");
   const MotionGoal second = sent();
   EXPECT_EQ(second.mode, MotionMode::planned);

@@ -55,15 +55,19 @@ std::vector<Port> read_ports(const config::Node& manifest, std::string_view dire
   return ports;
 }
 
+std::string include_line(std::string_view header) {
+  return fmt::format("#include \"{}\"\n", header);
+}
+
 /// What the header includes for the messages of `package`.
 std::string includes_of(const std::string& package, const std::vector<std::string>& headers) {
   constexpr std::string_view kOfTheFramework = "armature/messages/";
   const std::string own = fmt::format("{}{}.hpp", kOfTheFramework, package);
   std::string includes;
   for (const std::string& header : headers) {
-    if (header == own) return fmt::format("#include \"{}\"\n", header);
+    if (header == own) return include_line(header);
     if (header.starts_with(kOfTheFramework)) continue;
-    includes += fmt::format("#include \"{}\"\n", header);
+    includes += include_line(header);
   }
   if (!includes.empty()) return includes;
   return fmt::format("#error \"no library that armature_add_plugin links has messages of {}\"\n",
@@ -114,13 +118,14 @@ std::string ports_header(const config::Node& manifest,
   return fmt::format(R"(// Made from the plugin.yaml of {0}: change it there.
 #pragma once
 
-{1}#include "armature/runtime/component/setup.hpp"
-
-namespace {2} {{
-{3}
-}}  // namespace {2}
+{1}{2}
+namespace {3} {{
+{4}
+}}  // namespace {3}
 )",
-                     id, fmt::join(includes, ""), namespace_of(id), structs);
+                     id, fmt::join(includes, ""),
+                     include_line("armature/runtime/component/setup.hpp"), namespace_of(id),
+                     structs);
 }
 
 }  // namespace armature

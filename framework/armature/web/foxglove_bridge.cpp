@@ -43,6 +43,19 @@ Json json_of(Time time) {
   return {{"sec", time.ns / kSecond}, {"nsec", time.ns % kSecond}};
 }
 
+/// What a client has said. Throws std::invalid_argument unless it is a JSON object, and where it is
+/// nested deeper than all that is said here: what writes or copies JSON calls itself at each level.
+nlohmann::json object_of(std::string_view text) {
+  constexpr int kDeepest = 16;
+  const auto refuse_deep = [](int depth, nlohmann::json::parse_event_t, const nlohmann::json&) {
+    if (depth >= kDeepest) throw std::invalid_argument("what was said is nested too deeply");
+    return true;
+  };
+  nlohmann::json json = nlohmann::json::parse(text, refuse_deep, false);
+  if (!json.is_object()) throw std::invalid_argument("what was said is no JSON object");
+  return json;
+}
+
 /// The id that a client has said. Throws std::invalid_argument unless it is a whole number of 32
 /// bits.
 std::uint32_t id_of(const nlohmann::json& said) {
@@ -50,8 +63,9 @@ std::uint32_t id_of(const nlohmann::json& said) {
       said.get<std::uint64_t>() <= std::numeric_limits<std::uint32_t>::max()) {
     return said.get<std::uint32_t>();
   }
-  throw std::invalid_argument(fmt::format("an id is a whole number from 0 to 4294967295, not {}",
-                                          beginning_of(json_text(said))));
+  const std::string what =
+      said.is_primitive() ? beginning_of(json_text(said)) : fmt::format("an {}", said.type_name());
+  throw std::invalid_argument("an id is a whole number from 0 to 4294967295, not " + what);
 }
 
 Time steady_now() {
@@ -141,10 +155,9 @@ void FoxgloveBridge::closed(Client client) {
 }
 
 void FoxgloveBridge::said(Client client, std::string_view text) {
-  const auto json = nlohmann::json::parse(text, nullptr, false);
   const auto refuse_with = [&](const std::string& why) { send_error(client, why); };
-  if (!json.is_object()) return refuse_with("what was said is no JSON object");
   try {
+    const nlohmann::json json = object_of(text);
     const std::string op = json.at("op");
     if (op == "subscribe") {
       for (const auto& one : json.at("subscriptions")) {

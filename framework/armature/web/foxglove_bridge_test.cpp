@@ -134,6 +134,26 @@ TEST_F(FoxgloveBridgeTest, TakesNoIdForAnother) {
   EXPECT_FALSE(topic_.write("bright")) << "nobody reads it";
 }
 
+TEST_F(FoxgloveBridgeTest, RefusesWhatIsNestedDeeply) {
+  constexpr std::size_t kDeep = 400'000;  // 800 kB, which a client may say
+  const std::string nested = std::string(kDeep, '[') + std::string(kDeep, ']');
+  const std::string refused = "what was said is nested too deeply";
+  EXPECT_EQ(answer_to(nested), refused);
+  EXPECT_EQ(answer_to(R"({"op": "subscribe", "subscriptions": [{"id": )" + nested +
+                      R"(, "channelId": 1}]})"),
+            refused);
+  EXPECT_EQ(answer_to(R"({"op": "unsubscribe", "subscriptionIds": [)" + nested + "]}"), refused);
+  EXPECT_EQ(answer_to(std::string(kDeep, '[')), refused) << "it has no end";
+  EXPECT_EQ(answer_to(R"({"op": "end"})"), "'end' is not done here: a monitor only shows")
+      << "the bridge goes on";
+}
+
+TEST_F(FoxgloveBridgeTest, QuotesNoListForANumber) {
+  const std::string range = "an id is a whole number from 0 to 4294967295, not an ";
+  EXPECT_EQ(answer_to(R"({"op": "unsubscribe", "subscriptionIds": [[[1]]]})"), range + "array");
+  EXPECT_EQ(answer_to(R"({"op": "unsubscribe", "subscriptionIds": [{"a": 1}]})"), range + "object");
+}
+
 TEST_F(FoxgloveBridgeTest, TakesAnotherNumberOnceTheFirstIsGivenBack) {
   socket_.send_text(json{{"op", "subscribe"}, {"subscriptions", {subscription(1)}}}.dump());
   socket_.send_text(R"({"op": "unsubscribe", "subscriptionIds": [1]})");

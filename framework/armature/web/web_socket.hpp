@@ -85,9 +85,11 @@ class WebSocket {
     if (text.size() < 126) {
       frame += static_cast<char>(0x80 | text.size());
     } else {
-      frame += static_cast<char>(0x80 | 126);
-      frame += static_cast<char>(text.size() >> 8);
-      frame += static_cast<char>(text.size());
+      const bool is_long = text.size() > 0xFFFF;
+      frame += static_cast<char>(0x80 | (is_long ? 127 : 126));
+      for (int bits = is_long ? 56 : 8; bits >= 0; bits -= 8) {
+        frame += static_cast<char>(text.size() >> bits);
+      }
     }
     say(frame + std::string(4, '\0') + text);
   }

@@ -12,7 +12,9 @@
 namespace armature {
 namespace {
 
-enum Status : unsigned { kBadRequest = 400, kForbidden = 403 };
+enum Status : unsigned { kBadRequest = 400, kForbidden = 403, kUnavailable = 503 };
+
+constexpr std::size_t kMostClients = 32;  // each may make the server keep a whole queue
 
 /// Without telling by its time how much of it is right.
 bool same_token(std::string_view a, std::string_view b) {
@@ -51,7 +53,7 @@ bool is_origin_allowed(const Visitor& visitor, const WebServer::Options& options
 }  // namespace
 
 std::optional<NotAdmitted> admission(const Visitor& visitor, const WebServer::Options& options,
-                                     int port) {
+                                     int port, std::size_t clients) {
   if (!has_one_of(visitor.protocols, options.protocols)) {
     const std::string spoken = fmt::format("{}", fmt::join(options.protocols, " or "));
     const std::string asked = visitor.protocols.empty()
@@ -75,7 +77,16 @@ std::optional<NotAdmitted> admission(const Visitor& visitor, const WebServer::Op
         .status = kForbidden,
         .answer = "The token is missing or wrong: it belongs into the address, /?token=...\n"};
   }
-  if (is_origin_allowed(visitor, options, port)) return std::nullopt;
+  if (is_origin_allowed(visitor, options, port)) {
+    if (clients < kMostClients) return std::nullopt;
+    const std::string full =
+        fmt::format("{} clients are connected, and no more are let in", clients);
+    return NotAdmitted{.told = {.about = "the number of clients",
+                                .why = fmt::format("a WebSocket client at {} was refused: {}",
+                                                   visitor.address, full)},
+                       .status = kUnavailable,
+                       .answer = full + ".\n"};
+  }
   const std::string why = fmt::format("a page from {0} was refused; to let it in: {1} {0}",
                                       config::in_quotes(visitor.origin), options.origin_option);
   return NotAdmitted{

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -23,8 +24,8 @@ struct NotAdmitted {
   std::string answer;   // for the visitor, without anything that it has said itself
 };
 
-/// Nothing: it is welcome. `port`: where the server listens.
+/// Nothing: it is welcome. `port`: where the server listens; `clients`: how many are connected.
 std::optional<NotAdmitted> admission(const Visitor& visitor, const WebServer::Options& options,
-                                     int port);
+                                     int port, std::size_t clients);
 
 }  // namespace armature

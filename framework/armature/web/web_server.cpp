@@ -197,7 +197,7 @@ class WebServer::Impl {
   /// 0: the connection becomes a WebSocket; above: it was refused with an answer; below: it is
   /// shut.
   int admit(lws* connection) const {
-    const auto refused = admission(visitor_of(connection), options_, port());
+    const auto refused = admission(visitor_of(connection), options_, port(), sessions_.size());
     if (!refused) return 0;
     events_.refused(refused->told);
     const int result = lws_return_http_status(connection, refused->status, refused->answer.c_str());

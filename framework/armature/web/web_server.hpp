@@ -18,8 +18,8 @@ namespace armature ARMATURE_EXPORT {
 /// A WebSocket server on one thread. A client that reads slowly has a bounded queue, and loses its
 /// oldest binary messages when that is full; where those that must not be lost fill it, the client
 /// is closed, and told why. It slows nobody. Clients are refused that ask for no
-/// protocol the server speaks, that come from a page of a foreign origin, or have no right token;
-/// the answer of HTTP tells them why.
+/// protocol the server speaks, that come from a page of a foreign origin, or have no right token,
+/// and those that come when 32 are connected; the answer of HTTP tells them why.
 class WebServer {
  public:
   /// The page that HTTP serves, at `/` only and to everybody.

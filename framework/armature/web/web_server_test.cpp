@@ -153,6 +153,37 @@ TEST_F(WebServerTest, RefusesPagesOfForeignOrigins) {
   EXPECT_FALSE(opens(kProtocol + "Origin: null\r\n"));
 }
 
+TEST_F(WebServerTest, TakesAsManyClientsAsItSaysAndAnotherOneOnceOneHasLeft) {
+  std::vector<std::unique_ptr<WebSocket>> clients;
+  for (int i = 0; i < 32; ++i) {
+    clients.push_back(std::make_unique<WebSocket>(server_.port(), kProtocol));
+    ASSERT_TRUE(clients.back()->is_open()) << i;
+  }
+  for (int i = 0; i < 3; ++i) {
+    const WebSocket one_more{server_.port(), kProtocol};
+    EXPECT_FALSE(one_more.is_open());
+    EXPECT_TRUE(one_more.answer().starts_with("HTTP/1.0 503 ")) << one_more.answer();
+    EXPECT_NE(one_more.answer().find("32 clients are connected, and no more are let in"),
+              std::string::npos)
+        << one_more.answer();
+  }
+  clients.front()->send_text("light");
+  const auto frame = clients.front()->next();
+  ASSERT_TRUE(frame);
+  EXPECT_EQ(frame->payload, "heard light") << "who is there already is served";
+  clients.pop_back();
+  for (int i = 0; i < 500 && closed_ == 0; ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
+  EXPECT_TRUE(opens(kProtocol));
+  end();
+  ASSERT_EQ(refusals_.size(), 3U);
+  EXPECT_EQ(refusals_[0].why,
+            "a WebSocket client at 127.0.0.1 was refused: 32 clients are connected, and no more "
+            "are let in");
+  EXPECT_EQ(refusals_[0].about, refusals_[2].about) << "one need be told once";
+}
+
 TEST_F(WebServerTest, AClientThatDoesNotReadLosesItsOldestMessagesAndSlowsNobody) {
   WebSocket lazy{server_.port(), kProtocol}, reader{server_.port(), kProtocol};
   ASSERT_TRUE(lazy.is_open() && reader.is_open());

@@ -13,10 +13,13 @@
 namespace armature::ik_lines {
 namespace {
 
-/// Remembers in `last_key` where it is.
-Json::parser_callback_t without_duplicates(std::string& last_key) {
-  return [keys = std::vector<std::set<std::string>>{}, &last_key](int, Json::parse_event_t event,
-                                                                  Json& parsed) mutable {
+/// Remembers in `last_key` where it is. What is nested deeper than all lines is refused: what
+/// writes or copies JSON calls itself at each level.
+Json::parser_callback_t strictly(std::string& last_key) {
+  return [keys = std::vector<std::set<std::string>>{}, &last_key](
+             int depth, Json::parse_event_t event, Json& parsed) mutable {
+    constexpr int kDeepest = 32;
+    if (depth >= kDeepest) throw InvalidLine("nested too deeply");
     if (event == Json::parse_event_t::object_start) keys.emplace_back();
     if (event == Json::parse_event_t::object_end) keys.pop_back();
     if (event != Json::parse_event_t::key) return true;
@@ -37,7 +40,7 @@ Json parse_object(std::string_view line) {
   }
   std::string last_key;
   try {
-    Json json = Json::parse(line, without_duplicates(last_key));
+    Json json = Json::parse(line, strictly(last_key));
     if (!json.is_object()) throw InvalidLine("not a JSON object");
     return json;
   } catch (const Json::out_of_range&) {  // the only one that reading can meet: of 1e400

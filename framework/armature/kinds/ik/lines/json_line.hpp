@@ -19,7 +19,7 @@ struct InvalidLine : std::runtime_error {
 };
 
 /// The object that the line is; a key that is given twice, however deep, is no object of ours: JSON
-/// itself would take the last one and say nothing.
+/// itself would take the last one and say nothing. Nor is what is nested deeper than 32 levels.
 Json parse_object(std::string_view line);
 
 /// Exactly `count` finite numbers.

@@ -244,6 +244,20 @@ TEST(IkLines, ACommentIsNamedAndAByteOrderMarkIsNoHarm) {
   EXPECT_TRUE(fk("\xEF\xBB\xBF{\"joints\":[0,0,0,0,0,0]}").contains("position_m"));
 }
 
+TEST(IkLines, WhatIsNestedDeeplyIsRefused) {
+  constexpr std::size_t kDeep = 400'000;
+  const std::string open(kDeep, '['), nested = open + std::string(kDeep, ']');
+  const auto reason = [](const std::string& line) {
+    return json::parse(answer_fk(lamp(), line))["reason"].get<std::string>();
+  };
+  for (const std::string& line :
+       {open, nested, R"({"id":)" + nested + "}", R"({"joints":[0,0,0,0,0,)" + nested + "]}"}) {
+    EXPECT_EQ(reason(line), "nested too deeply") << line.substr(0, 40);
+  }
+  EXPECT_EQ(reason(R"({"id":)" + std::string(31, '[') + std::string(31, ']') + "}"),
+            "'id' must be a number or a text");
+}
+
 TEST(IkLines, ANumberBeyondAllMeasureIsRefusedByItsPlace) {
   const auto fk = [](const std::string& line) {
     return json::parse(answer_fk(lamp(), line))["reason"].get<std::string>();
@@ -290,6 +304,8 @@ TEST(IkLines, WhatIsNoAnswerIsRefusedAndShown) {
             R"('status' is given twice: '{"id":7,"status":"ok","status":"ok"}')");
   EXPECT_EQ(refusal(R"({"id":7,"status":"ok","solutions":5})"),
             R"(with 'solutions' that are no list: '{"id":7,"status":"ok","solutions":5}')");
+  EXPECT_EQ(refusal(std::string(400'000, '[')),
+            "nested too deeply: '" + std::string(60, '[') + "...'");
 }
 
 TEST(IkLines, ASolutionThatTheRobotCannotStandInIsRefusedByItsPlace) {

@@ -99,6 +99,7 @@ int draw_live_graph(const WatchOptions& options, const std::string& name, GraphF
                                     options.network.domain, fmt::join(names, ", ")));
   }
   std::string drawing = drawing_of(graph_of(all.begin()->first, all.begin()->second), format);
+  if (drawing.empty()) return kOk;  // it has no topics
   drawing.pop_back();
   tell(drawing);
   return kOk;

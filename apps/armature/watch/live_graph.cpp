@@ -88,6 +88,9 @@ int draw_live_graph(const WatchOptions& options, const std::string& name, GraphF
     }
   }
   if (left()) return kOk;
+  for (const std::string& note : seen.notes()) {
+    fmt::print(stderr, "armature: {}\n", terminal_text(note));
+  }
   std::erase_if(all, [](const auto& one) { return one.second.processes.empty(); });
   if (const std::string missing = incomplete(all); !missing.empty()) {
     fmt::print(stderr, "armature: {}\n", missing);

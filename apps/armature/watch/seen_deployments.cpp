@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "watch/seen_deployments.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <iterator>
 #include <string_view>
 #include <utility>
 
+#include "armature/bus/topic_name.hpp"
 #include "armature/messages/stamp.hpp"
 
 namespace armature {
 namespace {
 
-constexpr std::string_view kDescription = "/description", kStates = "/component_states";
-
-/// "dental_lamp" of "rt/dental_lamp/component_state"; empty: the topic is another one.
-std::string deployment_of(const ObservedTopic& topic, std::string_view suffix,
-                          const MessageType& type) {
+/// "dental_lamp" of "rt/dental_lamp/component_states"; empty: the topic is another one.
+std::string deployment_of(std::string_view topic, std::string_view name) {
   constexpr std::string_view kRoot = "rt/";
-  const bool is_it = topic.name.starts_with(kRoot) && topic.name.ends_with(suffix) &&
-                     topic.types.size() == 1 && topic.types.front() == type.dds_name;
-  return is_it ? topic.name.substr(kRoot.size(), topic.name.size() - kRoot.size() - suffix.size())
-               : "";
+  if (!topic.starts_with(kRoot) || !topic.ends_with(name)) return "";
+  topic.remove_prefix(kRoot.size());
+  topic.remove_suffix(std::min(topic.size(), name.size()));
+  return topic.find('/') == std::string_view::npos ? std::string{topic} : "";
 }
 
 double per(double amount, Duration time) {
@@ -50,29 +50,57 @@ SeenComponent seen_after(const std::optional<SeenComponent>& before, SeenCompone
 SeenDeployments::SeenDeployments(const WatchOptions& options, std::string name)
     : name_{std::move(name)}, outsider_{options} {}
 
+/// What the topic tells of which deployment, where that writes it; who else does is noted.
+std::optional<SeenDeployments::OwnTopic> SeenDeployments::own_topic(const ObservedTopic& topic) {
+  const std::string described = deployment_of(topic.name, "/description");
+  const std::string told = deployment_of(topic.name, "/component_states");
+  const OwnTopic own{.deployment = described.empty() ? told : described,
+                     .describes = !described.empty()};
+  if (own.deployment.empty() || (!name_.empty() && own.deployment != name_)) return std::nullopt;
+  const MessageType& type = own.describes ? message_type<msg::DeploymentDescription>()
+                                          : message_type<msg::ComponentStates>();
+  const auto is_own = [&](const ObservedEndpoint& endpoint) {
+    return endpoint.writes && endpoint.deployment == own.deployment &&
+           endpoint.type == type.dds_name;
+  };
+  const bool has_own = std::ranges::any_of(topic.endpoints, is_own);
+  for (const ObservedEndpoint& endpoint : topic.endpoints) {
+    // What another program tells in other words where no deployment is does not look like one.
+    const bool is_like = has_own || endpoint.type == type.dds_name;
+    if (!endpoint.writes || is_own(endpoint) || !is_like) continue;
+    note(endpoint.owner + " " + topic.name,
+         fmt::format("a writer of {} writes '{}' and is no part of deployment '{}' that this "
+                     "program knows: what it tells is not taken",
+                     endpoint.owner, ros_topic_name(topic.name), own.deployment));
+  }
+  return has_own ? std::optional{own} : std::nullopt;
+}
+
 void SeenDeployments::look() {
   std::set<std::string> there;
   for (const ObservedTopic& topic : outsider_.dds().topics()) {
-    if (topic.writers == 0) continue;
-    const std::string described =
-        deployment_of(topic, kDescription, message_type<msg::DeploymentDescription>());
-    const std::string told = deployment_of(topic, kStates, message_type<msg::ComponentStates>());
-    const std::string& deployment = described.empty() ? told : described;
-    if (deployment.empty() || (!name_.empty() && deployment != name_)) continue;
-    there.insert(deployment);
-    if (watched_.contains(topic.name)) continue;
-    const auto watching =
-        outsider_.dds().watch(topic.name, Duration{0}, [=, this](const ObservedSample& sample) {
-          if (!described.empty()) {
-            if (auto description = decoded<msg::DeploymentDescription>(sample)) add(*description);
-          } else if (const auto states = decoded<msg::ComponentStates>(sample)) {
-            add(deployment, *states, sample.source);
-          }
-        });
-    if (watching) watched_.insert(topic.name);
+    const auto own = own_topic(topic);
+    if (!own) continue;
+    there.insert(own->deployment);
+    if (!watched_.contains(topic.name)) watch(topic.name, *own);
   }
   const std::scoped_lock lock{mutex_};
   std::erase_if(seen_, [&](const auto& entry) { return !there.contains(entry.first); });
+}
+
+void SeenDeployments::watch(const std::string& topic, const OwnTopic& own) {
+  const auto watching =
+      outsider_.dds().watch(topic, Duration{0}, [=, this](const ObservedSample& sample) {
+        if (!sample.writer || sample.writer->deployment != own.deployment) return;
+        if (!own.describes) {
+          if (const auto states = decoded<msg::ComponentStates>(sample)) {
+            add(own.deployment, *states, sample.source);
+          }
+        } else if (const auto description = decoded<msg::DeploymentDescription>(sample)) {
+          add(own.deployment, *description, sample.writer->owner);
+        }
+      });
+  if (watching) watched_.insert(topic);
 }
 
 std::map<std::string, SeenDeployment> SeenDeployments::all() const {
@@ -80,13 +108,31 @@ std::map<std::string, SeenDeployment> SeenDeployments::all() const {
   return seen_;
 }
 
-void SeenDeployments::add(const msg::DeploymentDescription& description) {
+std::vector<std::string> SeenDeployments::notes() const {
   const std::scoped_lock lock{mutex_};
-  SeenDeployment& deployment = seen_[description.deployment_()];
-  const bool another_run = !deployment.processes.empty() &&
-                           deployment.processes.begin()->second.run_() != description.run_();
-  if (another_run) deployment = {};
-  deployment.processes[description.process_()] = description;
+  return notes_;
+}
+
+void SeenDeployments::note(const std::string& who, const std::string& what) {
+  constexpr std::size_t kMostNotes = 100;
+  const std::scoped_lock lock{mutex_};
+  if (notes_.size() < kMostNotes && noted_.insert(who).second) notes_.push_back(what);
+}
+
+void SeenDeployments::add(const std::string& deployment,
+                          const msg::DeploymentDescription& description,
+                          const std::string& writer) {
+  if (description.deployment_() != deployment) {
+    return note(writer + " as another", fmt::format("a writer of {} describes deployment '{}' on "
+                                                    "the topic of '{}': that is not taken",
+                                                    writer, description.deployment_(), deployment));
+  }
+  const std::scoped_lock lock{mutex_};
+  SeenDeployment& seen = seen_[deployment];
+  const bool another_run =
+      !seen.processes.empty() && seen.processes.begin()->second.run_() != description.run_();
+  if (another_run) seen = {};
+  seen.processes[description.process_()] = description;
 }
 
 void SeenDeployments::add(const std::string& deployment, const msg::ComponentStates& states,

@@ -38,7 +38,8 @@ struct SeenDeployment {
 /// What a component told now, with the rates since `before`.
 SeenComponent seen_after(const std::optional<SeenComponent>& before, SeenComponent now);
 
-/// All deployments of a domain that tell of themselves, or the one of a name.
+/// All deployments of a domain that tell of themselves, or the one of a name. Nobody else is
+/// believed what he writes on their topics.
 class SeenDeployments {
  public:
   /// `name`: empty for all of them.
@@ -47,15 +48,28 @@ class SeenDeployments {
   /// Watches what came up since the last look, and forgets what has left.
   void look();
   std::map<std::string, SeenDeployment> all() const;
+  /// Who writes there and is not believed, each once, in the order of coming.
+  std::vector<std::string> notes() const;
   Outsider& outsider() { return outsider_; }
 
  private:
-  void add(const msg::DeploymentDescription& description);
+  struct OwnTopic {
+    std::string deployment;
+    bool describes = false;  // else it tells states
+  };
+
+  std::optional<OwnTopic> own_topic(const ObservedTopic& topic);
+  void watch(const std::string& topic, const OwnTopic& own);
+  void note(const std::string& who, const std::string& what);
+  void add(const std::string& deployment, const msg::DeploymentDescription& description,
+           const std::string& writer);
   void add(const std::string& deployment, const msg::ComponentStates& states, Time told);
 
   std::string name_;
   mutable std::mutex mutex_;
   std::map<std::string, SeenDeployment> seen_;
+  std::set<std::string> noted_;  // who
+  std::vector<std::string> notes_;
   std::set<std::string> watched_;  // topics
   Outsider outsider_;              // goes before what its callbacks use
 };

@@ -9,10 +9,12 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "standard_output.hpp"
+#include "terminal_text.hpp"
 #include "watch/seen_deployments.hpp"
 #include "watch/top_screen.hpp"
 #include "watch/top_table.hpp"
@@ -77,6 +79,11 @@ class LiveTable {
   void draw() {
     TopTable table = top_table(shown_, view_, monotonic_now());
     lines_ = helps_ ? help() : std::move(table.lines);
+    if (!helps_) {
+      for (const std::string& note : seen_.notes()) {
+        lines_.push_back({terminal_text(note), Tone::doubtful});
+      }
+    }
     if (lines_.empty()) lines_.push_back({"waiting for a deployment that tells how it is", {}});
     const std::size_t last = lines_.size() > screen_.room() ? lines_.size() - screen_.room() : 0;
     first_ = std::min(first_, last);
@@ -187,11 +194,26 @@ class LiveTable {
   bool quits_ = false, helps_ = false, stands_ = false, types_ = false;
 };
 
+/// Says on stderr whom it does not believe, each once.
+class ToldNotes {
+ public:
+  void tell_new(const SeenDeployments& seen) {
+    const std::vector<std::string> notes = seen.notes();
+    for (; told_ < notes.size(); ++told_) {
+      fmt::print(stderr, "armature: {}\n", terminal_text(notes[told_]));
+    }
+  }
+
+ private:
+  std::size_t told_ = 0;
+};
+
 /// Waits until a deployment has told how its components are, twice: rates need it.
-int meet(SeenDeployments& seen, const TopOptions& options) {
+int meet(SeenDeployments& seen, const TopOptions& options, ToldNotes& notes) {
   const Time start = monotonic_now();
   for (bool told = false; !left();) {
     seen.look();
+    notes.tell_new(seen);
     for (const auto& [name, deployment] : seen.all()) {
       const bool twice = std::ranges::any_of(
           deployment.components, [](const auto& one) { return one.second.rate_hz > 0; });
@@ -217,10 +239,12 @@ int meet(SeenDeployments& seen, const TopOptions& options) {
 }
 
 int print_tables(SeenDeployments& seen, const TopOptions& options) {
-  if (const int code = meet(seen, options); code != kOk) return code;
+  ToldNotes notes;
+  if (const int code = meet(seen, options, notes); code != kOk) return code;
   for (std::uint64_t i = 0; options.count == 0 || i < options.count; ++i) {
     if (!wait_for(i == 0 ? Duration{0} : seconds(options.interval_s))) break;
     seen.look();
+    notes.tell_new(seen);
     if (options.json) {
       tell(json_text(top_json(seen.all(), monotonic_now())));
       continue;

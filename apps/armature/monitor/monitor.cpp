@@ -7,6 +7,7 @@
 #include "armature/web/dds_topics.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 
@@ -33,7 +34,9 @@ int show_to_browsers(const MonitorOptions& options) {
   for (const std::string& problem : describe_messages(plugins)) {
     fmt::print(stderr, "armature: {}\n", problem);
   }
-  DdsTopics topics{plugins, options.network};
+  DdsTopics topics{plugins, options.network, [](const std::string& conflict) {
+                     fmt::print(stderr, "armature: {}\n", terminal_text(conflict));
+                   }};
   serve_browsers(topics, options.server, nullptr, left);
   return kOk;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/web/dds_topics.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "armature/bus/topic_name.hpp"
@@ -9,7 +11,9 @@
 
 namespace armature {
 
-DdsTopics::DdsTopics(PluginRegistry& plugins, const NetworkOptions& network) {
+DdsTopics::DdsTopics(PluginRegistry& plugins, const NetworkOptions& network,
+                     std::function<void(const std::string&)> on_conflict)
+    : on_conflict_{std::move(on_conflict)} {
   auto observer =
       plugins.make<DdsObserver>("observer/fast_dds", ObserverOptions{.network = network});
   if (!observer) throw PluginError(observer.error().text);
@@ -20,13 +24,29 @@ std::vector<TopicSource::Topic> DdsTopics::topics() const {
   constexpr std::size_t kKept = 100;  // of a latched topic, as DDS keeps them
   std::vector<Topic> topics;
   for (const ObservedTopic& topic : observer_->topics()) {
-    const bool is_known = topic.types.size() == 1 && describe_type(topic.types.front());
-    if (topic.writers == 0 || !is_known) continue;
+    if (topic.writers == 0) continue;
+    const ObservedEndpoint& read = topic.endpoints.front();
+    const bool is_sure = topic.types.size() == 1 || !read.deployment.empty();
+    if (!is_sure || !describe_type(read.type)) continue;
+    tell_conflicts(topic);
     topics.push_back({.name = ros_topic_name(topic.name),
-                      .type = topic.types.front(),
-                      .keeps = topic.endpoints.front().transient_local ? kKept : 0});
+                      .type = read.type,
+                      .keeps = read.transient_local ? kKept : 0});
   }
   return topics;
+}
+
+void DdsTopics::tell_conflicts(const ObservedTopic& topic) const {
+  constexpr std::size_t kMostTold = 100;
+  const std::string& shown = topic.endpoints.front().type;
+  for (const ObservedEndpoint& endpoint : topic.endpoints) {
+    if (!endpoint.writes || endpoint.type == shown || told_.size() >= kMostTold) continue;
+    if (!told_.insert(endpoint.owner + " " + topic.name).second) continue;
+    on_conflict_(
+        fmt::format("a writer of {} writes '{}', too, as {}: it is shown as {}, and what "
+                    "that one writes is not",
+                    endpoint.owner, ros_topic_name(topic.name), endpoint.type, shown));
+  }
 }
 
 TopicSource::Schema DdsTopics::schema_of(const Topic& topic) const {

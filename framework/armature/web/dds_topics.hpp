@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -16,9 +18,12 @@ namespace armature ARMATURE_EXPORT {
 class DdsTopics final : public TopicSource {
  public:
   /// Joins the domain with the observer among `plugins`, which outlive this. Throws PluginError
-  /// with the reason when the domain cannot be joined.
-  DdsTopics(PluginRegistry& plugins, const NetworkOptions& network);
+  /// with the reason when the domain cannot be joined. `on_conflict` is told once, by `topics`, of
+  /// each program that writes a topic as another type than the one that is shown.
+  DdsTopics(PluginRegistry& plugins, const NetworkOptions& network,
+            std::function<void(const std::string&)> on_conflict);
 
+  /// Of a topic that is written as several types the one of the deployment that has it.
   std::vector<Topic> topics() const override;
   Schema schema_of(const Topic& topic) const override;
   /// Messages come on a thread of DDS.
@@ -26,6 +31,10 @@ class DdsTopics final : public TopicSource {
   void unwatch(const std::string& name) override;
 
  private:
+  void tell_conflicts(const ObservedTopic& topic) const;
+
+  std::function<void(const std::string&)> on_conflict_;
+  mutable std::set<std::string> told_;
   PluginPtr<DdsObserver> observer_;
 };
 

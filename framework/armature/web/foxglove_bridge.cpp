@@ -238,7 +238,13 @@ void FoxgloveBridge::leave_alone(std::uint32_t channel_id) {
 void FoxgloveBridge::look() {
   std::set<std::uint32_t> there;
   std::vector<const Channel*> came;
+  Json gone = Json::array();
   for (TopicSource::Topic& topic : topics_.topics()) {
+    const auto known = by_topic_.find(topic.name);
+    if (known != by_topic_.end() && channels_.at(known->second).topic.type != topic.type) {
+      gone.push_back(known->second);
+      forget(known->second);
+    }
     const auto [place, is_new] = by_topic_.try_emplace(topic.name, last_channel_ + 1);
     there.insert(place->second);
     if (!is_new) {
@@ -250,11 +256,14 @@ void FoxgloveBridge::look() {
     channel.topic = std::move(topic);
     came.push_back(&channel);
   }
-  Json gone = Json::array();
+  std::vector<std::uint32_t> left;
   for (const auto& [topic, id] : by_topic_) {
-    if (!there.contains(id)) gone.push_back(id);
+    if (!there.contains(id)) left.push_back(id);
   }
-  for (const std::uint32_t id : gone) forget(id);
+  for (const std::uint32_t id : left) {
+    gone.push_back(id);
+    forget(id);
+  }
   for (const auto& [client, subscriber] : clients_) {
     if (!gone.empty()) {
       server_.send(client, json_text(Json{{"op", "unadvertise"}, {"channelIds", gone}}));

@@ -26,7 +26,7 @@ class OneTopic final : public TopicSource {
  public:
   std::vector<Topic> topics() const override {
     if (!is_there_) return {};
-    return {{.name = "/light", .type = "Light"}};
+    return {{.name = "/light", .type = type_.load()}};
   }
   Schema schema_of(const Topic&) const override { return {"lamp/msg/Light", "float64 lux"}; }
   bool watch(const std::string&, OnMessage on_message) override {
@@ -39,6 +39,7 @@ class OneTopic final : public TopicSource {
     on_message_ = nullptr;
   }
 
+  void be_of_type(const char* type) { type_ = type; }
   void be_there(bool is_there) { is_there_ = is_there; }
 
   bool write(const std::string& text) {
@@ -50,6 +51,7 @@ class OneTopic final : public TopicSource {
 
  private:
   std::atomic<bool> is_there_{true};
+  std::atomic<const char*> type_{"Light"};
   std::mutex mutex_;
   OnMessage on_message_;
 };
@@ -183,6 +185,14 @@ TEST_F(FoxgloveBridgeTest, ForgetsAChannelThatIsGoneAndNumbersItAnewWhenItComesA
   }
   EXPECT_EQ(answer_to(json{{"op", "subscribe"}, {"subscriptions", {subscription(2)}}}.dump()),
             "there is no channel " + std::to_string(channel_));
+}
+
+TEST_F(FoxgloveBridgeTest, OffersATopicAnewThatHasAnotherType) {
+  topic_.be_of_type("Colour");
+  EXPECT_EQ(told(), (json{{"op", "unadvertise"}, {"channelIds", {channel_}}}));
+  const json came = told();
+  ASSERT_EQ(came["op"], "advertise");
+  EXPECT_EQ(came["channels"][0]["id"], channel_ + 1);
 }
 
 }  // namespace

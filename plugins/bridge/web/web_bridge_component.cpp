@@ -72,7 +72,7 @@ class WebBridgeComponent : public Component {
     const auto network = setup.network();
     if (!network) return;  // it is constructed and not run: the port is not its own
     lines_ = &setup.driver_thread<std::string>(kLines, [this] { serve(); });
-    topics_.emplace(plugins_.emplace(), *network);
+    topics_.emplace(plugins_.emplace(), *network, [this](const auto& line) { tell(line); });
     WebServer::Options server = monitor_server(address_);
     server.origin_option = "origins:";
     try {

@@ -28,6 +28,14 @@ namespace {
 
 namespace dds = eprosima::fastdds::dds;
 
+/// The order in which the endpoints of a topic are told: first the writer that is read, the one of
+/// the deployment that has the topic, then those of other deployments of ours, and other writers.
+int place(const Endpoint& endpoint) {
+  if (!endpoint.writes) return 3;
+  if (!endpoint.tag.ours) return 2;
+  return endpoint.topic.starts_with("rt/" + endpoint.tag.deployment + "/") ? 0 : 1;
+}
+
 ObservedEndpoint observed(const Endpoint& endpoint, const Discovery& discovery) {
   ObservedEndpoint seen{.writes = endpoint.writes,
                         .owner = discovery.owner(endpoint),
@@ -96,7 +104,9 @@ class Observer final : public DdsObserver {
       if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
     };
     const Discovery& discovery = participant_->discovery();
-    for (const Endpoint& endpoint : discovery.endpoints()) {
+    auto endpoints = discovery.endpoints();
+    std::ranges::stable_sort(endpoints, {}, place);
+    for (const Endpoint& endpoint : endpoints) {
       ObservedTopic& topic = by_name[endpoint.topic];
       topic.name = endpoint.topic;
       add_once(topic.types, endpoint.type);
@@ -105,10 +115,7 @@ class Observer final : public DdsObserver {
       topic.endpoints.push_back(observed(endpoint, discovery));
     }
     std::vector<ObservedTopic> sorted;
-    for (auto& [name, topic] : by_name) {
-      std::ranges::stable_partition(topic.endpoints, std::identity{}, &ObservedEndpoint::writes);
-      sorted.push_back(std::move(topic));
-    }
+    for (auto& [name, topic] : by_name) sorted.push_back(std::move(topic));
     return sorted;
   }
 
@@ -152,14 +159,12 @@ class Observer final : public DdsObserver {
   std::optional<Endpoint> wait_for_writer(const std::string& topic, Duration timeout) const {
     const auto deadline = std::chrono::steady_clock::now() + timeout;
     do {
-      std::optional<Endpoint> any;
+      std::optional<Endpoint> first;
       for (Endpoint& endpoint : participant_->discovery().endpoints()) {
         if (endpoint.topic != topic || !endpoint.writes) continue;
-        const auto& [ours, deployment, fingerprint, run, layout] = endpoint.tag;
-        if (ours && topic.starts_with("rt/" + deployment + "/")) return std::move(endpoint);
-        if (!any) any = std::move(endpoint);
+        if (!first || place(endpoint) < place(*first)) first = std::move(endpoint);
       }
-      if (any) return any;
+      if (first) return first;
       std::this_thread::sleep_for(std::chrono::milliseconds{10});
     } while (std::chrono::steady_clock::now() < deadline);
     return std::nullopt;

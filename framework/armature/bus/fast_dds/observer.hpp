@@ -31,12 +31,12 @@ struct ObservedEndpoint {
 
 /// A topic as discovery shows it.
 struct ObservedTopic {
-  std::string name;                      // DDS name: "rt/dental_lamp/arm/measured_js"
-  std::vector<std::string> types;        // DDS names; more than one is a conflict
+  std::string name;                // DDS name: "rt/dental_lamp/arm/measured_js"
+  std::vector<std::string> types;  // DDS names, first the one that is read; more are a conflict
   std::vector<std::string> deployments;  // those of ours that have endpoints there
   int writers = 0;
   int readers = 0;
-  std::vector<ObservedEndpoint> endpoints;  // writers first
+  std::vector<ObservedEndpoint> endpoints;  // writers first, before all the one that is read
 };
 
 struct ObservedSample {
@@ -71,7 +71,7 @@ class DdsObserver {
   /// Waits until `topic` has a writer (at most `timeout`), then calls `on_sample` on a DDS thread,
   /// one sample at a time, until the observer is destroyed. Takes "rt/a/b" and "/a/b". The reader
   /// is made for the writer of the deployment that has the topic, when that has been found, else
-  /// for any.
+  /// for one of another deployment of ours, else for any.
   virtual Expected<void> watch(const std::string& topic, Duration timeout,
                                std::function<void(const ObservedSample&)> on_sample) = 0;
   /// No sample of it is handed on when this has returned. Not from `on_sample`.

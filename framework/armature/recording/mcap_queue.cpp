@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/recording/mcap_queue.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +13,39 @@ namespace armature {
 namespace {
 
 constexpr std::chrono::seconds kLongestChunk{1};  // what is lost when the program dies
+
+/// How many messages of a channel who comes late is given.
+std::size_t depth_of(const McapChannel& channel) {
+  const auto qos = channel.metadata.find("qos");
+  if (qos == channel.metadata.end()) return 0;
+  if (qos->second == "latched") return 1;
+  return qos->second == "log" ? 100 : 0;
+}
+
+/// Of the channel with that number; they are numbered in their order.
+template <class Item>
+std::size_t depth_of(const std::vector<Item>& preamble, std::uint16_t number) {
+  for (const Item& item : preamble) {
+    const auto* channel = std::get_if<McapChannel>(&item);
+    if (channel && number-- == 0) return depth_of(*channel);
+  }
+  return 0;
+}
+
+/// Keeps a message for the next file when it is one of the last of a latched channel.
+template <class Item, class Message>
+void remember(std::vector<Item>& preamble, Message message) {
+  const std::size_t depth = depth_of(preamble, message.channel);
+  if (depth == 0) return;
+  const auto is_older = [&](const Item& item) {
+    const auto* older = std::get_if<Message>(&item);
+    return older && older->channel == message.channel;
+  };
+  if (static_cast<std::size_t>(std::ranges::count_if(preamble, is_older)) >= depth) {
+    preamble.erase(std::ranges::find_if(preamble, is_older));
+  }
+  preamble.emplace_back(std::move(message));
+}
 
 }  // namespace
 
@@ -138,6 +172,7 @@ void McapQueue::handle(Item& item) {
     keep(*message);
   } else if (writer_) {
     write(item);
+    if (around_) remember(preamble_, std::move(*message));
   } else {
     keep(*message);
   }
@@ -164,6 +199,7 @@ void McapQueue::keep(Message& message) {
   kept_.push_back(std::move(message));
   while (!kept_.empty() && (kept_.front().log_time < oldest || kept_bytes_ > kMaxWaiting)) {
     kept_bytes_ -= kept_.front().data.size();
+    remember(preamble_, std::move(kept_.front()));
     kept_.pop_front();
   }
 }
@@ -174,8 +210,22 @@ void McapQueue::begin_around(Time moment) {
   until_ = moment + around_->before_and_after;
   if (writer_) return;
   open(around_->file(moment));
-  for (const Item& item : preamble_) write(item);
-  for (Message& message : kept_) write(Item{std::move(message)});
+  // A file is as long as what happened in it: what is older arrives at its beginning.
+  Time begin = moment - around_->before_and_after;
+  if (!kept_.empty()) begin = std::min(begin, kept_.front().log_time);
+  for (const Item& item : preamble_) {
+    if (const auto* message = std::get_if<Message>(&item)) {
+      writer_->write(message->channel, message->sequence, std::max(message->log_time, begin),
+                     message->publish_time, message->data);
+    } else {
+      write(item);
+    }
+  }
+  for (Message& message : kept_) {
+    Item item{std::move(message)};
+    write(item);
+    remember(preamble_, std::move(std::get<Message>(item)));
+  }
   kept_.clear();
   kept_bytes_ = 0;
 }

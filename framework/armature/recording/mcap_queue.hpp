@@ -28,7 +28,9 @@ class McapQueue {
   static constexpr std::size_t kMaxWaiting = 256U << 20;  // [byte]
 
   enum class WhenFull { drop, wait };
-  /// What is kept in memory, at most kMaxWaiting bytes, and written when a moment is marked.
+  /// What is kept in memory, at most kMaxWaiting bytes, and written when a moment is marked. Of
+  /// channels whose metadata says qos: latched or log, who comes late is given the last messages:
+  /// each file begins with those that are older than what is kept, as if they had just arrived.
   struct Around {
     Duration before_and_after;
     /// Of a moment. A file that is there stays: "fault-2.mcap" is taken, "fault-3.mcap", ...
@@ -100,7 +102,7 @@ class McapQueue {
   // Of the thread:
   std::optional<McapWriter> writer_;  // none: what comes is kept
   Time until_;                        // when the file around a moment ends
-  std::vector<Item> preamble_;        // all but messages
+  std::vector<Item> preamble_;        // all but messages; of latched channels the last of these
   std::deque<Message> kept_;          // before the next moment
   std::size_t kept_bytes_ = 0;
   std::uint64_t messages_ = 0, bytes_ = 0;  // of files that have ended

@@ -40,6 +40,14 @@ class McapQueueTest : public ::testing::Test {
     EXPECT_THAT(reader.problems(), testing::IsEmpty());
     return times;
   }
+  /// When they were sent [s].
+  static std::vector<std::int64_t> sent_in(const fs::path& file) {
+    McapReader reader{file};
+    std::vector<std::int64_t> times;
+    while (const auto message = reader.next())
+      times.push_back(message->publish_time.ns / 1'000'000'000);
+    return times;
+  }
   McapQueue::Around around(double around_s) {
     return {.before_and_after = seconds(around_s),
             .file =
@@ -109,6 +117,34 @@ TEST_F(McapQueueTest, AnotherMomentOfTheSameNameReplacesNothing) {
   EXPECT_THAT(times_in(folder_ / told_[1]), ElementsAre(13, 14, 15, 16, 17));
   EXPECT_THAT(times_in(folder_ / told_[2]), ElementsAre(23, 24, 25, 26, 27));
   EXPECT_EQ(fs::file_size(folder_ / "fault-2026-3.mcap"), 16U);
+}
+
+TEST_F(McapQueueTest, EachFileAroundAMomentHasWhatWasLatchedBefore) {
+  McapQueue queue{around(2), {}};
+  const auto channel = queue.add_channel("/a", kType);
+  const auto plan = queue.add_channel("/plan", kType, {{"qos", "latched"}});
+  const auto log = queue.add_channel("/log", kType, {{"qos", "log"}});
+  const auto state = queue.add_channel("/state", kType, {{"qos", "state"}});
+  write(queue, state, 1);
+  for (int i = 0; i < 150; ++i) write(queue, log, 2);
+  for (int i = 0; i < 60; ++i) {
+    write(queue, channel, i);
+    if (i == 3 || i == 5 || i == 21 || i == 22) write(queue, plan, i);
+    if (i == 20 || i == 40 || i == 50) queue.mark(Time{} + seconds(i));
+  }
+  queue.close();
+  const auto without_log = [&](const fs::path& file) {
+    std::vector<std::int64_t> times = sent_in(folder_ / file);
+    EXPECT_EQ(std::erase(times, 2), 100) << file;
+    const std::vector<std::int64_t> arrived = times_in(folder_ / file);
+    EXPECT_TRUE(std::ranges::is_sorted(arrived)) << file;
+    EXPECT_GE(arrived.back() - arrived.front(), 4) << file;
+    EXPECT_LE(arrived.back() - arrived.front(), 5) << file;
+    return times;
+  };
+  EXPECT_THAT(without_log("20.mcap"), ElementsAre(5, 18, 19, 20, 21, 21, 22, 22));
+  EXPECT_THAT(without_log("40.mcap"), ElementsAre(22, 38, 39, 40, 41, 42));
+  EXPECT_THAT(without_log("50.mcap"), ElementsAre(22, 48, 49, 50, 51, 52));
 }
 
 TEST_F(McapQueueTest, WithoutAMomentThereIsNoFile) {

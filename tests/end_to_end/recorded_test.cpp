@@ -74,7 +74,6 @@ TEST_F(Recorded, ARunIsInTheFileWithWhatItWasMadeFrom) {
   const json told = json::parse(result.out);
   EXPECT_EQ(told["dropped"], 0);
   const json in_it = info(file_, 0);
-  EXPECT_EQ(in_it["whole"], true);
   EXPECT_EQ(all_messages(in_it), told["messages"]);
   EXPECT_GT(messages_of(kJoints, in_it), 1000U);
   std::vector<std::string> attached;
@@ -219,8 +218,19 @@ TEST_F(Recorded, WhatIsReplacedStaysUntilThereIsAWholeRecording) {
   EXPECT_GT(all_messages(info(draft(), 1)), 0U);
 
   EXPECT_EQ(run_command(record({"--timeout", "4", "--force"}), {}, kEnough).exit_code, 0);
-  EXPECT_EQ(info(file_, 0)["whole"], true);
+  EXPECT_EQ(run_command({armature(), "info", file_, "--verify"}).exit_code, 0);
   EXPECT_EQ(files(), 2) << "and the draft of the one that died";
+}
+
+TEST_F(Recorded, ARecordingOfNothingLeavesNoFile) {
+  for (int times = 0; times < 2; ++times) {
+    const CommandResult nothing = run_command(record({"/nobody", "--timeout", "1"}), {}, kEnough);
+    EXPECT_EQ(nothing.exit_code, 5) << nothing.err;
+    EXPECT_THAT(nothing.err,
+                HasSubstr("nothing came to be recorded: '" + file_ + "' is not there"));
+    EXPECT_EQ(nothing.out, "");
+    EXPECT_FALSE(fs::exists(file_));
+  }
 }
 
 TEST_F(Recorded, WhatIsBeingRecordedIsNotReplaced) {
@@ -235,7 +245,7 @@ TEST_F(Recorded, WhatIsBeingRecordedIsNotReplaced) {
   EXPECT_EQ(second.err, "armature: '" + file_ + "' is being written by another program\n");
   first.signal(SIGINT);
   first.finish(kEnough);
-  EXPECT_EQ(info(file_, 0)["whole"], true);
+  EXPECT_EQ(run_command({armature(), "info", file_, "--verify"}).exit_code, 0);
 }
 
 TEST_F(Recorded, ANameThatNobodyWritesIsTold) {
@@ -257,7 +267,7 @@ TEST_F(Recorded, CtrlCEndsTheFileInOrder) {
   }
   recording.signal(SIGINT);
   EXPECT_EQ(recording.finish(kEnough).exit_code, 0);
-  EXPECT_EQ(info(file_, 0)["whole"], true);
+  EXPECT_EQ(run_command({armature(), "info", file_, "--verify"}).exit_code, 0);
 }
 
 TEST_F(Recorded, AFullDiskIsToldAndEndsTheRecording) {

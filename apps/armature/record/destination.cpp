@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/destination.hpp"
 
+#include <system_error>
 #include <utility>
 
 namespace armature {
 
 Destination::Destination(std::filesystem::path file, bool force)
-    : file_{std::move(file)}, older_{hold_to_replace(file_, force)} {
+    : file_{std::move(file)},
+      was_there_{std::filesystem::exists(file_)},
+      older_{hold_to_replace(file_, force)} {
   if (older_) draft_.emplace(file_, "recording");
 }
 
 Destination::~Destination() {
   if (draft_) draft_->keep();
+}
+
+void Destination::drop() {
+  std::error_code none;
+  if (draft_) {
+    draft_.reset();
+  } else if (!was_there_) {
+    std::filesystem::remove(file_, none);
+  } else if (std::filesystem::is_regular_file(file_, none)) {  // it was empty
+    std::filesystem::resize_file(file_, 0, none);
+  }
 }
 
 void Destination::take() {

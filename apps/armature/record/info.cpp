@@ -15,6 +15,7 @@
 #include "exit_code.hpp"
 #include "record/record.hpp"
 #include "record/repaired.hpp"
+#include "shell_word.hpp"
 #include "standard_output.hpp"
 
 namespace armature {
@@ -36,11 +37,12 @@ struct TopicCount {
   std::string type;
   std::uint64_t messages = 0, doubled = 0;
   std::optional<std::uint64_t> bytes;  // a summary does not tell
-  double hz = 0;
+  std::optional<double> hz;            // nor that: when the topic came first and last
 };
 
 /// The contents of a recording, read from its summary or from all of it.
 struct Contents {
+  bool is_all_read = false;
   std::string library;
   Duration length{0};
   std::uint64_t chunks = 0, packed_bytes = 0, unpacked_bytes = 0;
@@ -63,7 +65,8 @@ std::string type_of(const McapChannel& channel,
 }
 
 Contents contents_of(const McapSummary& summary) {
-  Contents contents{.library = summary.library,
+  Contents contents{.is_all_read = false,
+                    .library = summary.library,
                     .length = summary.last - summary.first,
                     .chunks = summary.chunks,
                     .packed_bytes = summary.packed_bytes,
@@ -81,7 +84,6 @@ Contents contents_of(const McapSummary& summary) {
     if (messages == summary.messages.end()) continue;
     (is_doubled(channel, processes) ? topic.doubled : topic.messages) += messages->second;
   }
-  for (auto& [name, topic] : contents.topics) topic.hz = rate(topic.messages, contents.length);
   return contents;
 }
 
@@ -94,7 +96,7 @@ Contents contents_of(McapReader& reader, const std::vector<std::string>& process
       last = is_first ? time : std::max(last, time);
     }
   };
-  Contents contents;
+  Contents contents{.is_all_read = true};
   std::map<std::string, Times> sent;
   Times arrived;
   bool is_first = true;
@@ -135,7 +137,8 @@ std::uint64_t doubled_in(const Contents& contents) {
 
 Json json_of(const Contents& contents, const std::vector<std::string>& problems) {
   Json json{{"library", contents.library},
-            {"whole", problems.empty()},
+            // Its summary says nothing of what was changed since: null, which is not true.
+            {"whole", contents.is_all_read ? Json(problems.empty()) : Json{}},
             {"problems", problems},
             {"repaired", repairs_told_by(contents.metadata)},
             {"length_s", to_seconds(contents.length)},
@@ -169,8 +172,9 @@ void print(const Contents& contents) {
   std::size_t width = 0;
   for (const auto& [name, topic] : contents.topics) width = std::max(width, name.size());
   for (const auto& [name, topic] : contents.topics) {
-    print_out("  {:<{}}  {:<40} {:>9} messages {:>9.1f} Hz", shown(name), width, shown(topic.type),
-              topic.messages, topic.hz);
+    print_out("  {:<{}}  {:<40} {:>9} messages", shown(name), width, shown(topic.type),
+              topic.messages);
+    if (topic.hz) print_out(" {:>9.1f} Hz", *topic.hz);
     print_out("{}\n", topic.bytes ? fmt::format(" {:>14}", megabytes(*topic.bytes)) : "");
   }
   if (const std::uint64_t doubled = doubled_in(contents)) {
@@ -261,7 +265,7 @@ void tell_problems(const std::filesystem::path& file, const std::vector<std::str
   fmt::print(stderr,
              "armature: what can be read of it is saved by: armature record --repair {} -o "
              "whole.mcap\n",
-             file.string());
+             shell_word(file.string()));
 }
 
 }  // namespace

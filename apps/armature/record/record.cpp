@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -19,6 +20,8 @@
 #include "exit_code.hpp"
 #include "record/destination.hpp"
 #include "record/recorder.hpp"
+#include "record/unheard_writers.hpp"
+#include "shell_word.hpp"
 #include "standard_output.hpp"
 
 namespace armature {
@@ -31,6 +34,16 @@ bool matches(const std::string& topic, const std::string& wanted) {
                        topic);
 }
 
+/// The writer whose type and QoS a reader is given that is made now (DdsObserver::watch).
+const ObservedEndpoint& read_like(const ObservedTopic& topic) {
+  const auto is_of_its_deployment = [&](const ObservedEndpoint& endpoint) {
+    return endpoint.writes && !endpoint.deployment.empty() &&
+           topic.name.starts_with("rt/" + endpoint.deployment + "/");
+  };
+  const auto own = std::ranges::find_if(topic.endpoints, is_of_its_deployment);
+  return own == topic.endpoints.end() ? topic.endpoints.front() : *own;  // writers come first
+}
+
 /// Watches the wanted topics, those that come up later, too.
 class Topics {
  public:
@@ -40,16 +53,19 @@ class Topics {
   void look() {
     for (const ObservedTopic& topic : outsider_.dds().topics()) {
       const std::string name = ros_topic_name(topic.name);
-      const bool is_new = topic.writers > 0 && !watched_.contains(name);
+      if (const auto watched = watched_.find(name); watched != watched_.end()) {
+        tell_unheard(name, unheard_writers(topic, watched->second));
+        continue;
+      }
       const bool is_wanted = options_.topics.empty() ||
                              std::ranges::any_of(options_.topics, [&](const std::string& wanted) {
                                return matches(name, wanted);
                              });
-      if (!is_new || !is_wanted) continue;
+      if (topic.writers == 0 || !is_wanted) continue;
       const auto watching = outsider_.dds().watch(
           topic.name, Duration{0},
           [this, name](const ObservedSample& sample) { recorder_.add(name, sample); });
-      if (watching) watched_.insert(name);
+      if (watching) watched_.emplace(name, read_like(topic));
     }
   }
   std::size_t count() const { return watched_.size(); }
@@ -57,16 +73,28 @@ class Topics {
   std::vector<std::string> missing() const {
     std::vector<std::string> missing;
     std::ranges::copy_if(options_.topics, std::back_inserter(missing), [&](const auto& wanted) {
-      return std::ranges::none_of(watched_,
-                                  [&](const auto& name) { return matches(name, wanted); });
+      return std::ranges::none_of(
+          watched_, [&](const auto& watched) { return matches(watched.first, wanted); });
     });
     return missing;
   }
 
  private:
+  /// Once for each topic.
+  void tell_unheard(const std::string& name, int writers) {
+    if (writers == 0 || !told_unheard_.insert(name).second) return;
+    fmt::print(
+        stderr,
+        "armature: {} of the writers of '{}' are not recorded: a topic is read with the type "
+        "and the QoS of the writer that came first, and theirs do not match; give all of "
+        "them the same ('armature topic info {}' shows them)\n",
+        writers, name, name);
+  }
+
   const RecordOptions& options_;
   Recorder& recorder_;
-  std::set<std::string> watched_;
+  std::map<std::string, ObservedEndpoint> watched_;  // with whom their readers were made for
+  std::set<std::string> told_unheard_;
   Outsider outsider_;  // goes before what its callbacks use
 };
 
@@ -137,14 +165,14 @@ int record_topics(const RecordOptions& options) {
       destination.drop();
       throw;
     }
-    throw std::runtime_error(fmt::format(
-        "{}; {} messages stand in the file and {} do not; those that do are readable, "
-        "and made whole by: armature record --repair {} -o whole.mcap",
-        error.what(), recorder.messages(), recorder.unwritten(), destination.path().string()));
+    throw std::runtime_error(
+        fmt::format("{}; {} messages stand in the file and {} do not; those that do are readable, "
+                    "and made whole by: armature record --repair {} -o whole.mcap",
+                    error.what(), recorder.messages(), recorder.unwritten(),
+                    shell_word(destination.path().string())));
   }
-  const bool came = recorder.messages() > 0, is_left = !came && destination.is_draft();
-  if (came) destination.take();
-  if (is_left) destination.drop();
+  const bool came = recorder.messages() > 0;
+  came ? destination.take() : destination.drop();
   if (options.json) {
     std::uint64_t dropped = 0, lost = 0;
     for (const auto& [topic, count] : recorder.dropped()) dropped += count;
@@ -152,18 +180,18 @@ int record_topics(const RecordOptions& options) {
     print_out("{}\n", json_text(Json{{"file", options.out.string()},
                                      {"topics", recorder.topics()},
                                      {"messages", recorder.messages()},
-                                     {"bytes", recorder.bytes()},
+                                     {"bytes", came ? recorder.bytes() : 0},
                                      {"dropped", dropped},
                                      {"lost", lost},
-                                     {"head", is_left ? "" : recorder.head()}}));
-  } else if (!is_left) {
+                                     {"head", came ? recorder.head() : ""}}));
+  } else if (came) {
     print_out("{}: {} messages of {} topics, {}\n", options.out.string(), recorder.messages(),
               recorder.topics(), megabytes(recorder.bytes()));
     print_out("last hash {}\n", recorder.head());
   }
   if (came) return kOk;
-  fmt::print(stderr, "armature: nothing came to be recorded{}\n",
-             is_left ? fmt::format(": '{}' is as it was", options.out.string()) : "");
+  fmt::print(stderr, "armature: nothing came to be recorded: '{}' is {}\n", options.out.string(),
+             destination.was_there() ? "as it was" : "not there");
   return kTimedOut;
 }
 

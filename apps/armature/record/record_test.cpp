@@ -16,6 +16,7 @@
 #include "armature/recording/recording_test.hpp"
 #include "exit_code.hpp"
 #include "record/merge.hpp"
+#include "record/unheard_writers.hpp"
 
 namespace armature {
 namespace {
@@ -139,6 +140,13 @@ std::string info_text(const InfoOptions& info, int exit_code) {
   return out + testing::internal::GetCapturedStderr();
 }
 
+/// What `armature info --json` tells.
+nlohmann::json info_of(const std::filesystem::path& file, bool verify) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(describe_recording({.file = file, .json = true, .verify = verify}), kOk);
+  return nlohmann::json::parse(testing::internal::GetCapturedStdout());
+}
+
 TEST(DamagedRecording, IsToldOfByInfoAlsoWhenItWasRepaired) {
   const RecordingFile file{"damaged"}, repaired{"repaired"};
   {
@@ -158,6 +166,18 @@ TEST(DamagedRecording, IsToldOfByInfoAlsoWhenItWasRepaired) {
   for (const bool verify : {false, true}) {
     EXPECT_THAT(info_text({.file = repaired.path(), .verify = verify}, kOk), HasSubstr(expected));
   }
+}
+
+TEST(DamagedRecording, WithAnyNameIsRepairedByTheLineThatIsTold) {
+  const RecordingFile file{"the patient's $HOME"};
+  {
+    McapWriter writer{file.path(), {.chunk_bytes = 1024}};
+    write_all_but_the_end(writer, 100);
+  }
+  const std::string told = info_text({.file = file.path()}, kFailed);
+  const std::string folder = file.path().parent_path();
+  EXPECT_THAT(told, HasSubstr("--repair '" + folder + "/armature-"));
+  EXPECT_THAT(told, HasSubstr("-the patient'\\''s $HOME.mcap' -o whole.mcap"));
 }
 
 TEST(DamagedRecording, OfWhichNothingIsLeftIsNotSentToBeRepaired) {
@@ -248,6 +268,32 @@ TEST(JoinedRecording, TakesThePlaceOfAPartAndSaysWhatWasCutOff) {
   EXPECT_THAT(reader.metadata().back().values.at("first_problem"), HasSubstr("it ends before"));
 }
 
+TEST(JoinedRecording, IsNotCalledCompleteWhenAPartWasCutOffOrChanged) {
+  const RecordingFile a{"a"}, b{"b"}, out{"out"};
+  write_part(a.path(), "main", 10);
+  write_part(b.path(), "vision", 11);
+  const std::string whole = b.bytes();
+  const auto told = [&](bool verify) {
+    join_recordings({a.path(), b.path()}, out.path());
+    return info_text({.file = out.path(), .verify = verify}, kOk);
+  };
+  EXPECT_THAT(told(false), Not(HasSubstr("incomplete")));
+  std::string changed = whole;
+  changed[places_of(mcap::Op::chunk, whole).at(1) + 60] ^= 0x01;
+  const std::string cut = whole.substr(0, places_of(mcap::Op::chunk, whole).at(3));
+  const std::map<std::string, std::string> words{{changed, "changed after it was written"},
+                                                 {cut, "cut off"}};
+  for (const auto& [bytes, word] : words) {
+    b.replace(bytes);
+    for (const bool verify : {false, true}) {
+      EXPECT_THAT(told(verify),
+                  HasSubstr("incomplete: the part of process 'vision' was " + word + ": "));
+      const nlohmann::json info = info_of(out.path(), verify);
+      ASSERT_EQ(info["repaired"].size(), 1U) << info.dump(1);
+    }
+  }
+}
+
 TEST(JoinedRecording, IsNotMadeOfWhatIsNotOneRunAndLeavesEverythingAsItWas) {
   const RecordingFile a{"a"}, b{"b"};
   const auto reason = [&] {
@@ -301,13 +347,6 @@ TEST(JoinedRecording, MayHaveBeenJoinedBeforeAndHasNoProcessTwice) {
   }
 }
 
-/// What `armature info --json` tells.
-nlohmann::json info_of(const std::filesystem::path& file, bool verify) {
-  testing::internal::CaptureStdout();
-  EXPECT_EQ(describe_recording({.file = file, .json = true, .verify = verify}), kOk);
-  return nlohmann::json::parse(testing::internal::GetCapturedStdout());
-}
-
 TEST(Info, CountsAMessageOnceThatItsWriterAndAReaderHaveRecorded) {
   const RecordingFile file{"info"};
   {
@@ -346,6 +385,38 @@ TEST(Info, CountsAMessageOnceThatItsWriterAndAReaderHaveRecorded) {
     if (!verify) continue;
     EXPECT_EQ(info["topics"][0]["bytes"], 107 * payload(1).size());
   }
+}
+
+TEST(Info, SaysThatAFileIsWholeAndHowOftenATopicCameOnlyWhenItHasReadAllOfIt) {
+  const RecordingFile file{"info"};
+  write_part(file.path(), "main", 10);
+  std::string bytes = file.bytes();
+  EXPECT_EQ(info_of(file.path(), true)["whole"], true);
+  EXPECT_THAT(info_text({.file = file.path(), .verify = true}, kOk), HasSubstr("500.0 Hz"));
+  EXPECT_THAT(info_text({.file = file.path()}, kOk), Not(HasSubstr("Hz")));
+  bytes[places_of(mcap::Op::chunk, bytes).at(1) + 60] ^= 0x01;
+  file.replace(bytes);
+  EXPECT_EQ(info_of(file.path(), false)["whole"], nlohmann::json{}) << "nobody has looked";
+}
+
+TEST(ARecordedTopic, HasWritersThatAreNotHeardWhereTypeOrQosDoNotMatchThoseOfTheFirst) {
+  const ObservedEndpoint latched{
+      .writes = true, .owner = "a", .type = "T", .reliable = true, .transient_local = true};
+  ObservedEndpoint state = latched, sensor = latched, other = latched, reader = latched;
+  state.transient_local = false;
+  sensor.transient_local = sensor.reliable = false;
+  other.type = "U";
+  reader.type = "U";
+  reader.writes = false;
+  const ObservedTopic topic{.name = "rt/a",
+                            .types = {"T", "U"},
+                            .deployments = {},
+                            .writers = 4,
+                            .readers = 1,
+                            .endpoints = {latched, state, sensor, other, reader}};
+  EXPECT_EQ(unheard_writers(topic, latched), 3);
+  EXPECT_EQ(unheard_writers(topic, state), 2) << "a latched one is heard";
+  EXPECT_EQ(unheard_writers(topic, sensor), 1);
 }
 
 TEST(JoinedRecording, IsForItsUserAloneAndFollowsNoLink) {

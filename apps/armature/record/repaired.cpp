@@ -9,7 +9,7 @@
 namespace armature {
 namespace {
 
-/// What was wrong with the file that was repaired; empty: nothing.
+/// What was wrong with the file that was repaired or joined; empty: nothing.
 std::string wrong_with(const std::string& chain, const std::string& problems) {
   if (chain == "cut") return "cut off";
   if (chain == "changed") return "changed after it was written";
@@ -18,16 +18,25 @@ std::string wrong_with(const std::string& chain, const std::string& problems) {
 
 }  // namespace
 
-std::vector<std::string> repairs_told_by(const std::vector<McapMetadata>& metadata) {
+std::vector<std::string> repairs_told_by(const std::vector<McapMetadata>& metadata,
+                                         std::string_view process) {
   std::vector<std::string> told;
   for (const McapMetadata& one : metadata) {
-    if (one.name != kRepairedMetadata) continue;
+    const bool is_part = one.name == kPartMetadata;
+    if (!is_part && one.name != kRepairedMetadata) continue;
     const auto value = [&](const char* key) {
       const auto found = one.values.find(key);
       return found == one.values.end() ? std::string{} : found->second;
     };
     const std::string wrong = wrong_with(value("chain"), value("problems"));
     if (wrong.empty()) continue;
+    if (is_part) {
+      const std::string of = value("process"), first = value("first_problem");
+      if (!process.empty() && of != process) continue;
+      told.push_back(fmt::format("the part of process {} was {}{}{}", config::in_quotes(of), wrong,
+                                 first.empty() ? "" : ": ", first));
+      continue;
+    }
     told.push_back(fmt::format("it was repaired from {}, which was {}",
                                config::in_quotes(value("file")), wrong));
   }

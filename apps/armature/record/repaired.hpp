@@ -2,15 +2,18 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/recording/mcap.hpp"
 
 namespace armature {
 
-/// One text for each file that a recording was repaired from and that was not whole, by its
-/// metadata: "it was repaired from 'cut.mcap', which was cut off"; empty: nothing was missing in
-/// any.
-std::vector<std::string> repairs_told_by(const std::vector<McapMetadata>& metadata);
+/// One text for each file that a recording was repaired from or joined of and that was not whole,
+/// by its metadata: "it was repaired from 'cut.mcap', which was cut off", "the part of process
+/// 'vision' was cut off: it ends before its summary"; empty: nothing was missing in any. `process`:
+/// of parts only those of this one; empty: of all.
+std::vector<std::string> repairs_told_by(const std::vector<McapMetadata>& metadata,
+                                         std::string_view process = {});
 
 }  // namespace armature

@@ -182,13 +182,7 @@ std::vector<std::string> RecordedRun::problems() const {
   };
   for (const std::string& problem : reader_.problems()) add(problem);
   // Of what was joined, the file is whole where the part was not.
-  for (const McapMetadata& metadata : reader_.metadata()) {
-    const auto first = metadata.values.find("first_problem");
-    if (metadata.name != kPartMetadata || !is_mine(metadata.values)) continue;
-    if (first == metadata.values.end() || first->second.empty()) continue;
-    add(fmt::format("the recording of process '{}' was not whole: {}", process_, first->second));
-  }
-  for (const std::string& repair : repairs_told_by(reader_.metadata())) add(repair);
+  for (const std::string& repair : repairs_told_by(reader_.metadata(), process_)) add(repair);
   const auto is_end = [&](const McapMetadata& metadata) {
     return metadata.name == kEndMetadata && is_mine(metadata.values);
   };

@@ -51,13 +51,15 @@ void add_record(CLI::App& app, Action& action) {
 void add_info(CLI::App& app, Action& action) {
   auto options = std::make_shared<InfoOptions>();
   CLI::App* verb = app.add_subcommand(
-      "info", "Tell what is in a recording, and whether it is whole: armature info run.mcap");
+      "info",
+      "Tell what is in a recording, and with --verify whether it is whole: armature info run.mcap");
   verb->add_option("recording", options->file, "an MCAP file")
       ->required()
       ->check(CLI::ExistingFile);
   verb->add_flag("--json", options->json, "as JSON");
-  CLI::Option* verify = verb->add_flag("--verify", options->verify,
-                                       "read all of it, and tell whether it is as it was written");
+  CLI::Option* verify = verb->add_flag(
+      "--verify", options->verify,
+      "read all of it, and tell whether it is as it was written, and how often its topics came");
   verb->add_option("--head", options->head, "and whether this is its last hash, as record told it")
       ->transform(in_small_letters)
       ->check(no_hash)

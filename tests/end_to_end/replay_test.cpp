@@ -448,14 +448,40 @@ TEST_F(Replay, WhatHappenedAroundATroubleIsInAFileOfItsOwn) {
   run.signal(SIGUSR1);
   const CommandResult result = run.finish(kEnough);
   EXPECT_THAT(result.err, HasSubstr("what happened around the trouble is recorded: "));
-  ASSERT_FALSE(fs::is_empty(folder_.path()));
-  const std::string written = fs::directory_iterator { folder_.path() } -> path();
-  const json info = json::parse(run_command({armature(), "info", written, "--json"}).out);
+  // Around the end of the run, which has a fault, is another one: "trouble-10-2.mcap".
+  std::vector<std::string> files;
+  for (const auto& entry : fs::directory_iterator{folder_.path()}) files.push_back(entry.path());
+  ASSERT_FALSE(files.empty());
+  const std::string written = *std::ranges::min_element(files, {}, &std::string::size);
+  const json info =
+      json::parse(run_command({armature(), "info", written, "--json", "--verify"}).out);
   EXPECT_TRUE(info["whole"]);
   EXPECT_GT(info["length_s"], 1.0) << "before and after";
+  EXPECT_LT(info["length_s"], 4.0);
+  std::set<std::string> topics;
+  for (const json& topic : info["topics"]) {
+    if (topic["messages"] > 0) topics.insert(topic["topic"]);
+  }
+  for (const char* latched : {"/robot_description", "/tf_static", "/dental_lamp/description"}) {
+    EXPECT_TRUE(topics.contains(latched)) << latched;
+  }
   const CommandResult replay = run_command({armature(), "replay", written, "--check"});
   EXPECT_EQ(replay.exit_code, 1);
   EXPECT_THAT(replay.err, HasSubstr("begins in the midst of a run"));
+}
+
+TEST_F(Replay, AGoalThatIsMissedIsATroubleAroundWhichIsRecorded) {
+  const CommandResult run =
+      run_command({armature(), "run", source_file("configs/sr1_biopsy.yaml"), "--set",
+                   "record={file: \"" + file("trouble-%H.mcap") + "\", around_faults_s: 1}",
+                   "--set", "goals.target_error_of_bound_999=0.1", "--json", "--domain",
+                   std::to_string(unique_dds_domain())},
+                  {}, kEnough);
+  EXPECT_EQ(json::parse(run.out)["status"], "goals_missed") << run.err;
+  EXPECT_THAT(run.err, HasSubstr("what happened around the trouble is recorded: "));
+  ASSERT_FALSE(fs::is_empty(folder_));
+  const std::string written = fs::directory_iterator { folder_ } -> path();
+  EXPECT_EQ(json::parse(attached(written, "figures.json"))["status"], "goals_missed");
 }
 
 TEST_F(Replay, WhatWasRecordedIsPublishedAgainUnderNamesOfItsOwn) {

@@ -125,6 +125,12 @@ nlohmann::ordered_json provenance(const ReportOptions& options, const RunContent
   return told;
 }
 
+/// A recording with joints shall show the arm that they are of.
+bool lacks_arm(const RunContents& contents) {
+  return contents.topics.contains("/joint_states") &&
+         !contents.topics.contains("/robot_description");
+}
+
 /// What whoever made the page should know.
 std::vector<std::string> notes_on(const ReportOptions& options, const RunContents& contents) {
   std::vector<std::string> notes;
@@ -141,6 +147,9 @@ std::vector<std::string> notes_on(const ReportOptions& options, const RunContent
     note(
         "has no /joint_states or no /tf: the page does not show how the arm moved (name both "
         "under record: topics)");
+  }
+  if (lacks_arm(contents)) {
+    note("has no /robot_description: the page shows no arm (name it under record: topics)");
   }
   return notes;
 }

@@ -279,6 +279,14 @@ TEST_F(ReportTest, LeavesOutWhatComesToItsRecordingWhileItIsMade) {
   EXPECT_EQ(reduced(recording_.path(), before, true).messages, 0U) << "another one by that name";
 }
 
+TEST_F(ReportTest, NotesThatItShowsNoArm) {
+  record({{.name = "/joint_states", .type = "sensor_msgs/msg/JointState", .count = 10}});
+  const WrittenReport written = write_report(
+      {.recording = recording_.path(), .out = out_.path(), .page = page_.path(), .force = true});
+  EXPECT_THAT(written.notes,
+              testing::Contains(HasSubstr("has no /robot_description: the page shows no arm")));
+}
+
 TEST_F(ReportTest, SaysThatItsRecordingWasCutOff) {
   record({{"/a", "std_msgs/msg/String", 1000, 100}});
   std::string bytes = recording_.bytes();

@@ -174,6 +174,14 @@ void tell_network(const Network& network, Console& console) {
                                             "fingerprint"));
 }
 
+/// What went wrong in a scenario that came to its end is a trouble of none of its components.
+void tell_status_to_black_box(const std::string& status, Deployment& deployment) {
+  const auto& record = deployment.config().record;
+  if (!record || !record->around_faults || status == "ok") return;
+  deployment.tell(fmt::format("the run ends with status '{}'", status),
+                  StatusReporter::State::degraded);
+}
+
 int run_main(const RunOptions& options, const Process& process, Deployment& deployment,
              PluginRegistry& plugins, Console& console, WatchedEnd& end) {
   check_recordings(deployment.config(), process.name, process.origin.start);
@@ -199,6 +207,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   const RunReport report{deployment, ending};
   ReportList list{options.report.value_or("")};
   int code = conclude(options, deployment, report, list, console, end);
+  tell_status_to_black_box(report.status(), deployment);
   deployment.end_recording(figures_json(report, timing));
   end.do_unwatched([&] {
     if (recording && !joined(*recording, deployment.config(), console)) code = kFailed;

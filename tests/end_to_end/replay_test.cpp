@@ -334,10 +334,26 @@ TEST_F(Replay, AnotherSeedChangesEveryComponent) {
   const CommandResult replay =
       run_command({armature(), "replay", file(), "--set", "seed=7", "--json"});
   ASSERT_EQ(replay.exit_code, 0) << replay.err;
-  const json head = component_of(json::parse(replay.out).at(0), "head");
+  const json compared = json::parse(replay.out).at(0);
+  EXPECT_EQ(compared["complete"], true);
+  const json head = component_of(compared, "head");
   std::uint64_t differing = 0;
   for (const json& topic : head["topics"]) differing += topic["differing"].get<std::uint64_t>();
   EXPECT_GT(differing, 0U) << head.dump(1);
+}
+
+TEST_F(Replay, ADamagedRecordingIsComparedAsFarAsItGoesAndThatIsSaid) {
+  record_needle();
+  fs::resize_file(file(), fs::file_size(file()) / 2);
+  const CommandResult replay =
+      run_command({armature(), "replay", file(), "--set", "seed=7", "--json"});
+  EXPECT_EQ(replay.exit_code, 1);
+  EXPECT_THAT(replay.err, HasSubstr(file() + "': it ends in the midst"));
+  const json compared = json::parse(replay.out).at(0);
+  EXPECT_EQ(compared["process"], "main");
+  EXPECT_EQ(compared["complete"], false);
+  EXPECT_THAT(compared["problems"].dump(), HasSubstr("it ends in the midst"));
+  EXPECT_GT(component_of(compared, "head")["activations"], 0);
 }
 
 TEST_F(Replay, WhatIsNotInTheRecordingIsNotCompared) {
@@ -347,6 +363,14 @@ TEST_F(Replay, WhatIsNotInTheRecordingIsNotCompared) {
   EXPECT_EQ(component_of(checked, "landmarks")["ends"],
             "a sample of its input 'left_image' is not in the recording");
   EXPECT_GT(component_of(checked, "arm")["outputs"], 1'000);
+  const CommandResult other =
+      run_command({armature(), "replay", file(), "--set", "seed=7", "--json"});
+  EXPECT_EQ(other.exit_code, 1);
+  const json compared = json::parse(other.out).at(0);
+  EXPECT_FALSE(compared["complete"]);
+  EXPECT_EQ(component_of(compared, "landmarks")["ends"],
+            "a sample of its input 'left_image' is not in the recording");
+  EXPECT_GT(component_of(compared, "arm")["activations"], 1'000);
 }
 
 TEST_F(Replay, ADamagedRecordingAccusesNobody) {

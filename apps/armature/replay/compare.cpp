@@ -141,6 +141,27 @@ class Comparison {
       if (!start) start = now;
       repeat(*call, to_seconds(now - *start));
     }
+    for (const auto& [name, end] : run_.unrecorded_ends()) {
+      const auto found = now_.process.entries().find(name);
+      if (found != now_.process.entries().end() && !found->second.ends) found->second.ends = end;
+    }
+  }
+
+  const std::string& process() const { return run_.process(); }
+  /// What is wrong with the recording.
+  std::vector<std::string> problems() const { return run_.problems(); }
+  /// What the operator should know of the two that are compared, each once.
+  std::set<std::string> notes() const {
+    std::set<std::string> notes{before_.process.notes().begin(), before_.process.notes().end()};
+    notes.insert(now_.process.notes().begin(), now_.process.notes().end());
+    return notes;
+  }
+  /// Whether all that can be repeated was repeated, and something was.
+  bool is_complete() const {
+    const auto ends = [](const auto& entry) { return entry.second.ends.has_value(); };
+    return problems().empty() && !components_.empty() &&
+           std::ranges::none_of(before_.process.entries(), ends) &&
+           std::ranges::none_of(now_.process.entries(), ends);
   }
 
   const std::vector<std::string>& changed() const { return changed_; }
@@ -244,7 +265,7 @@ void print_solver(const Side::Solver& before, const Side::Solver& now) {
   if (now.calls.count > 0 && before.calls.count > 0) {
     const double mean = now.calls.took_s / static_cast<double>(now.calls.count);
     const double mean_before = before.calls.took_s / static_cast<double>(before.calls.count);
-    print_out("  a call takes {:.2f} times as long: {:.2f} us instead of {:.2f} us\n",
+    print_out("  a call takes {:.3g} times as long: {:.2f} us instead of {:.2f} us\n",
               mean / mean_before, 1e6 * mean, 1e6 * mean_before);
   }
   if (now.calls.first_failed) {
@@ -262,7 +283,7 @@ void print(const Comparison& comparison) {
     const TimingFigures before = times_of(comparison.before(), name);
     const TimingFigures now = times_of(comparison.now(), name);
     print_out(
-        "'{}', {} activations: a step takes {:.2f} times as long (p50 {:.2f} us instead of "
+        "'{}', {} activations: a step takes {:.3g} times as long (p50 {:.2f} us instead of "
         "{:.2f}, p99 {:.2f} us instead of {:.2f}), the slowest {:.2f} us at {:.3f} s\n",
         name, now.count, now.p50_s / before.p50_s, 1e6 * now.p50_s, 1e6 * before.p50_s,
         1e6 * now.p99_s, 1e6 * before.p99_s, 1e6 * now.max_s, *compared.slowest_at_s);
@@ -327,7 +348,11 @@ Json json_of(const Side::Solver& solver) {
 }
 
 Json json_of(const Comparison& comparison) {
-  Json json{{"components", Json::array()}, {"solvers", Json::array()}};
+  Json json{{"process", comparison.process()},
+            {"complete", comparison.is_complete()},
+            {"problems", comparison.problems()},
+            {"components", Json::array()},
+            {"solvers", Json::array()}};
   for (const auto& [name, compared] : comparison.components()) {
     const TimingFigures before = times_of(comparison.before(), name);
     const TimingFigures now = times_of(comparison.now(), name);
@@ -344,6 +369,12 @@ Json json_of(const Comparison& comparison) {
     const auto& ends = comparison.now().process.entries().at(name).ends;
     if (ends) told["ends"] = *ends;
   }
+  for (const auto& [name, entry] : comparison.now().process.entries()) {
+    if (comparison.components().contains(name)) continue;
+    Json& told = json["components"].emplace_back(Json{{"component", name}});
+    if (!entry.component) told["not_replayed"] = entry.why_not;
+    if (entry.ends) told["ends"] = *entry.ends;
+  }
   const auto& before = comparison.before().solvers;
   const auto& now = comparison.now().solvers;
   for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
@@ -358,13 +389,25 @@ int compare_with_recording(const ReplayOptions& options) {
   name_crashing_components();
   PluginRegistry plugins;
   Json json = Json::array();
-  bool any = false;
+  bool any = false, is_complete = true;
+  std::set<std::string> told;  // of a file with several processes, once
+  const auto tell = [&](const std::string& text) {
+    if (told.insert(text).second) fmt::print(stderr, "armature: {}\n", text);
+  };
   for (const std::filesystem::path& file : options.files) {
     for (const std::string& process : recorded_processes(file)) {
       Comparison comparison{file, process, options, plugins};
       any = any || !comparison.changed().empty();
       if (comparison.changed().empty()) continue;
+      for (const std::string& note : comparison.notes()) tell(note);
       comparison.run();
+      for (const std::string& problem : comparison.problems()) {
+        tell(fmt::format("'{}': {}", file.string(), problem));
+      }
+      if (comparison.components().empty()) {
+        tell(fmt::format("'{}': nothing of process '{}' was compared", file.string(), process));
+      }
+      is_complete = is_complete && comparison.is_complete();
       if (options.json) {
         json.push_back(json_of(comparison));
       } else {
@@ -374,7 +417,7 @@ int compare_with_recording(const ReplayOptions& options) {
   }
   if (!any) throw InvalidChoice("the assignments change no component of the recording");
   if (options.json) print_out("{}\n", json_text(json));
-  return kOk;
+  return is_complete ? kOk : kFailed;
 }
 
 }  // namespace armature

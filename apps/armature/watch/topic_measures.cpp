@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -111,7 +113,8 @@ int measure_topic(TopicMeasure what, const TopicOptions& options) {
       meter.add({.source = sample.source,
                  .bytes = sample.cdr.size(),
                  .delay_s = delay ? delay_of(sample, options.topic) : 0,
-                 .lost_before = sample.lost_before});
+                 .lost_before = sample.lost_before,
+                 .writer = sample.writer ? sample.writer->guid : std::array<std::uint8_t, 16>{}});
       count.add();
     } catch (const std::runtime_error& error) {
       wrong = error.what();

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -31,24 +33,29 @@ struct MeasuredSample {
   std::size_t bytes = 0;
   double delay_s = 0;  // from its stamp to its arrival
   std::uint64_t lost_before = 0;
+  std::array<std::uint8_t, 16> writer = {};  // 0: not known
 };
 
 /// How a topic's samples came.
 struct TopicFigures {
   std::uint64_t samples = 0, intervals = 0;
   std::uint64_t lost = 0;     // sent between two samples that came, and not arrived
-  Spread<double> interval_s;  // by the time stamps of the writer
+  Spread<double> interval_s;  // between two samples of one writer, by its time stamps
+  double elapsed_s = 0;       // by the time stamps of all
   Spread<std::size_t> bytes;
   std::size_t bytes_of_intervals = 0;  // of the samples that ended one
   Spread<double> delay_s;
 
   double hz() const { return over(static_cast<double>(intervals)); }
   double bytes_per_s() const { return over(static_cast<double>(bytes_of_intervals)); }
-  void add(const MeasuredSample& sample, std::optional<Duration> interval) {
+  /// `interval`: since the one before of the same writer; `elapsed`: since the latest of all.
+  void add(const MeasuredSample& sample, std::optional<Duration> interval,
+           std::optional<Duration> elapsed) {
     ++samples;
     lost += sample.lost_before;
     bytes.add(sample.bytes);
     delay_s.add(sample.delay_s);
+    if (elapsed) elapsed_s += to_seconds(*elapsed);
     if (!interval) return;
     ++intervals;
     interval_s.add(to_seconds(*interval));
@@ -56,24 +63,29 @@ struct TopicFigures {
   }
 
  private:
-  double over(double amount) const { return interval_s.sum > 0 ? amount / interval_s.sum : 0; }
+  double over(double amount) const { return elapsed_s > 0 ? amount / elapsed_s : 0; }
 };
 
 /// Measures a topic's samples, in all and since the last look. One thread at a time.
 class TopicMeter {
  public:
   void add(const MeasuredSample& sample) {
-    const auto interval = last_ ? std::optional{sample.source - *last_} : std::nullopt;
-    all_.add(sample, interval);
-    recent_.add(sample, interval);
-    last_ = sample.source;
+    const auto [last, is_first] = last_.try_emplace(sample.writer, sample.source);
+    const auto interval = is_first ? std::nullopt : std::optional{sample.source - last->second};
+    const auto elapsed =
+        latest_ ? std::optional{std::max(sample.source - *latest_, Duration{0})} : std::nullopt;
+    all_.add(sample, interval, elapsed);
+    recent_.add(sample, interval, elapsed);
+    last->second = sample.source;
+    latest_ = std::max(sample.source, latest_.value_or(sample.source));
   }
   const TopicFigures& all() const { return all_; }
   /// Since the last call; the interval that ends with its first sample belongs to it.
   TopicFigures take_recent() { return std::exchange(recent_, TopicFigures{}); }
 
  private:
-  std::optional<Time> last_;
+  std::map<std::array<std::uint8_t, 16>, Time> last_;  // by writer
+  std::optional<Time> latest_;                         // of all
   TopicFigures all_, recent_;
 };
 

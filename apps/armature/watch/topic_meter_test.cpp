@@ -32,6 +32,31 @@ TEST(TopicMeter, TellsWhatCameSinceTheLastLookWithoutAGapBetweenTheLooks) {
   EXPECT_EQ(meter.all().samples, 30U);
 }
 
+TEST(TopicMeter, TellsTheIntervalsOfEachOfTwoWritersAndTheRateOfBoth) {
+  TopicMeter meter;
+  const auto add = [&](std::uint8_t writer, int t) {
+    MeasuredSample sample = sample_at(t, 100);
+    sample.writer = {writer};
+    meter.add(sample);
+  };
+  for (int t = 0; t <= 1000; t += 10) {
+    add(1, t + 140);
+    add(2, t);  // its clock is behind
+  }
+  EXPECT_DOUBLE_EQ(meter.all().interval_s.least, 0.010);
+  EXPECT_DOUBLE_EQ(meter.all().interval_s.greatest, 0.010);
+  EXPECT_NEAR(meter.all().hz(), 200, 2);
+  EXPECT_NEAR(meter.all().bytes_per_s(), 20'000, 200);
+}
+
+TEST(TopicMeter, HasNoRateBeforeTheSecondSampleOfAWriter) {
+  TopicMeter meter;
+  meter.add({.source = Time{0}, .writer = {1}});
+  meter.add({.source = Time{1000}, .writer = {2}});
+  EXPECT_EQ(meter.all().intervals, 0U);
+  EXPECT_EQ(meter.all().hz(), 0);
+}
+
 TEST(TopicMeter, CountsWhatWasLostInAllAndSinceTheLastLook) {
   TopicMeter meter;
   meter.add({.source = Time{0}});

@@ -8,7 +8,7 @@ namespace armature {
 
 Destination::Destination(std::filesystem::path file, bool force)
     : file_{std::move(file)},
-      was_there_{std::filesystem::exists(file_)},
+      was_there_{std::filesystem::exists(std::filesystem::symlink_status(file_))},
       older_{hold_to_replace(file_, force)} {
   if (older_) draft_.emplace(file_, "recording");
 }

@@ -17,6 +17,7 @@
 #include "record/merge.hpp"
 #include "record/record.hpp"
 #include "report/report.hpp"
+#include "shell_word.hpp"
 
 namespace armature {
 namespace {
@@ -31,8 +32,11 @@ bool is_part(const std::filesystem::path& file) {
   }
 }
 
-std::vector<std::string> names_of(const std::vector<std::filesystem::path>& files) {
-  return {files.begin(), files.end()};
+/// The files as words of a line for a shell.
+std::string words_of(const std::vector<std::filesystem::path>& files) {
+  std::string words;
+  for (const std::filesystem::path& file : files) words += " " + shell_word(file.string());
+  return words;
 }
 
 /// What is joined at the end of a run: the recordings of this host's processes. Those that are
@@ -64,17 +68,17 @@ void tell_other_hosts(const std::filesystem::path& recording, const DeploymentCo
                       Console& console) {
   for (const std::string& host : config.hosts()) {
     if (host == kMainHost) continue;
-    std::vector<std::string> files;
+    std::vector<std::filesystem::path> files{recording.filename()};
     for (const std::string& name : config.processes()) {
       if (config.host_of(name) != host) continue;
-      files.push_back(RecordConfig::part_of(recording.filename(), name).string());
+      files.push_back(RecordConfig::part_of(recording.filename(), name));
     }
-    if (files.empty()) continue;
+    if (files.size() == 1) continue;
+    const std::vector<std::string> there{files.begin() + 1, files.end()};
     console.line("runtime",
                  fmt::format("host '{}' has recorded {} there; brought here, it is joined by: "
-                             "armature record --merge {} {} -o whole.mcap",
-                             host, fmt::join(files, " and "), recording.filename().string(),
-                             fmt::join(files, " ")));
+                             "armature record --merge{} -o whole.mcap",
+                             host, fmt::join(there, " and "), words_of(files)));
   }
 }
 
@@ -167,8 +171,8 @@ bool joined(const std::filesystem::path& recording, const DeploymentConfig& conf
   } catch (const std::exception& error) {
     console.tell(
         fmt::format("the recordings of the processes were not joined: {}; join them where "
-                    "there is room: armature record --merge {} -o whole.mcap",
-                    error.what(), fmt::join(names_of(parts), " ")));
+                    "there is room: armature record --merge{} -o whole.mcap",
+                    error.what(), words_of(parts)));
     return false;
   }
 }

@@ -7,11 +7,69 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
 #include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <mutex>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <system_error>
 
 namespace armature {
+namespace {
+
+/// What the handler of SIGBUS may look at: a file that is mapped.
+struct MappedPlace {
+  std::atomic<const std::byte*> begin = nullptr;  // set last, cleared first
+  const std::byte* end = nullptr;
+  std::array<char, 512> name{};
+};
+std::array<MappedPlace, 64> places;  // a file that finds none is not told by name
+
+void say(std::string_view text) {
+  [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+void tell_shortened_file(int signal, siginfo_t* info, void*) {
+  const auto* at = static_cast<const std::byte*>(info->si_addr);
+  for (const MappedPlace& place : places) {
+    const std::byte* begin = place.begin.load();
+    if (!begin || at < begin || at >= place.end) continue;
+    say("armature: '");
+    say(place.name.data());
+    say("' was made shorter while it was read\n");
+    _exit(1);
+  }
+  std::signal(signal, SIG_DFL);  // the access is made again, and ends the program
+}
+
+void handle_shortened_files() {
+  struct sigaction before {};
+  if (sigaction(SIGBUS, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
+  struct sigaction handler {};
+  handler.sa_sigaction = &tell_shortened_file;
+  handler.sa_flags = SA_SIGINFO;
+  sigaction(SIGBUS, &handler, nullptr);
+}
+
+std::size_t take_place(std::span<const std::byte> bytes, const std::string& name) {
+  static std::mutex mutex;
+  const std::lock_guard lock{mutex};
+  handle_shortened_files();
+  const auto free = std::ranges::find_if(places, [](const auto& place) { return !place.begin; });
+  if (free == places.end()) return places.size();
+  free->name.fill(0);
+  std::memcpy(free->name.data(), name.data(), std::min(name.size(), free->name.size() - 1));
+  free->end = bytes.data() + bytes.size();
+  free->begin = bytes.data();
+  return static_cast<std::size_t>(free - places.begin());
+}
+
+}  // namespace
 
 MappedFile::MappedFile(const std::filesystem::path& file) {
   const auto refuse = [&] {
@@ -31,9 +89,11 @@ MappedFile::MappedFile(const std::filesystem::path& file) {
   close(descriptor);
   if (memory == MAP_FAILED) refuse();
   bytes_ = {static_cast<const std::byte*>(memory), size};
+  place_ = bytes_.empty() ? places.size() : take_place(bytes_, file.string());
 }
 
 MappedFile::~MappedFile() {
+  if (place_ < places.size()) places[place_].begin = nullptr;
   if (!bytes_.empty()) munmap(const_cast<std::byte*>(bytes_.data()), bytes_.size());
 }
 

@@ -7,7 +7,9 @@
 
 namespace armature {
 
-/// A file's bytes, read when they are looked at.
+/// A file's bytes, read when they are looked at. A program that looks at what is no longer there,
+/// because somebody made the file shorter meanwhile, ends with the file's name and exit code 1;
+/// where it has a handler of its own for SIGBUS, that runs.
 class MappedFile {
  public:
   /// Throws std::runtime_error for a file that cannot be read; what is no file is empty.
@@ -20,6 +22,7 @@ class MappedFile {
 
  private:
   std::span<const std::byte> bytes_;
+  std::size_t place_ = 0;  // among those whose end is told by name
 };
 
 }  // namespace armature

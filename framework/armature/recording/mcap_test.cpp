@@ -2,17 +2,32 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <random>
 #include <stdexcept>
 #include <vector>
 
+#include "armature/recording/mapped_file.hpp"
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/recording_test.hpp"
 
 namespace armature {
 namespace {
+
+// A file that shrinks under its reader.
+TEST(MappedFileDeathTest, ThatIsMadeShorterWhileItIsReadIsNamed) {
+  const RecordingFile file{"shorter"};
+  file.replace(std::string(100'000, 'x'));
+  EXPECT_EXIT(
+      {
+        const MappedFile mapped{file.path()};
+        std::filesystem::resize_file(file.path(), 10);
+        std::exit(mapped.bytes().back() == std::byte{'x'} ? 0 : 2);
+      },
+      testing::ExitedWithCode(1), "shorter.mcap' was made shorter while it was read");
+}
 
 namespace fs = std::filesystem;
 

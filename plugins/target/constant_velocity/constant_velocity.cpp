@@ -32,6 +32,13 @@ constexpr double kSmoothing = 0.4;        // weight of the newest innovation
 constexpr double kSettledSurprise = 1.5;  // moving -> still, and
 constexpr double kSettledRates = 1.3;     // normalised square of the rates: 1 for a still target
 constexpr double kMaxVariance = 1e6;      // [m2], [rad2]: such a measurement says nothing
+constexpr int kPossible = 2;              // outliers that agree, where the target can have gone
+
+// What is added to the covariances of a measurement, [m2] and [rad2]: no camera sees a face better
+// than to 0.1 mm and 1 mrad, and covariances of zero would make motion of all noise.
+constexpr double kAddedPosition = 1e-8, kAddedNormal = 1e-6;
+
+constexpr double kMaxBack = 0.1;  // [s] by which a prediction may be before the newest measurement
 
 /// Over dt, positions go on with their rates; `decay` is what is left of a rate.
 void carry_on(Vector12& mean, double dt, double decay) {
@@ -67,6 +74,12 @@ bool is_sound(const TargetMeasurement& m) {
   const Matrix6 noise = measurement_noise(m);
   return m.position.allFinite() && m.normal.allFinite() && m.normal.norm() >= 0.5 &&
          noise.allFinite() && noise.trace() < kMaxVariance && noise.llt().info() == Eigen::Success;
+}
+
+TargetMeasurement with_least_noise(TargetMeasurement measurement) {
+  measurement.position_covariance.diagonal().array() += kAddedPosition;
+  measurement.normal_covariance.diagonal().array() += kAddedNormal;
+  return measurement;
 }
 
 /// Rows and columns of what is measured.
@@ -206,12 +219,13 @@ void ConstantVelocity::advance(Belief& belief, double dt_s, bool moving) const {
   belief.stamp = belief.stamp + seconds(dt_s);
 }
 
-Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measurement,
+Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& told,
                                                   PluginState& state) const {
-  if (!is_sound(measurement)) {
+  if (!is_sound(told)) {
     return refuse(
         "the measurement is not finite, its normal is no unit vector, or a covariance is none");
   }
+  const TargetMeasurement measurement = with_least_noise(told);
   std::optional<Belief> belief = Belief::in(state);
   if (!belief || to_seconds(measurement.stamp - belief->stamp) > parameters_.max_gap) {
     belief = started_at(measurement);
@@ -223,24 +237,31 @@ Expected<TargetEstimate> ConstantVelocity::update(const TargetMeasurement& measu
   return next.map([](const Belief& b) { return estimate_of(b.stamp, b.measurements, b.mean); });
 }
 
-std::optional<std::string> ConstantVelocity::why_outlier(const TargetMeasurement& measurement,
-                                                         const Belief& belief,
-                                                         const Belief& predicted) const {
+struct ConstantVelocity::Outlier {
+  std::string why;
+  bool is_possible;  // the target can have gone there since the newest measurement
+};
+
+std::optional<ConstantVelocity::Outlier> ConstantVelocity::outlier(
+    const TargetMeasurement& measurement, const Belief& belief, const Belief& predicted) const {
   const double dt_s = to_seconds(predicted.stamp - belief.stamp);
   const Deviation is = deviation(measurement.position - predicted.mean.segment<3>(kPosition),
                                  measurement.normal - predicted.mean.segment<3>(kNormal));
   const auto known = [&](int block) -> Eigen::Matrix3d {
     return belief.covariance.block<3, 3>(block, block);
   };
-  const Deviation widest =
-      widest_deviation(dt_s, known(kPosition) + measurement.position_covariance,
-                       known(kNormal) + measurement.normal_covariance, parameters_);
-  if (is.is_within(widest)) return std::nullopt;
-  return fmt::format(
-      "outlier: {:.0f} mm and {:.0f} degrees from where the target should be; within {:.0f} ms and "
-      "as well as it is known {:.0f} mm and {:.0f} degrees are possible",
-      is.distance_m * 1e3, is.angle_rad * kDegreesPerRadian, dt_s * 1e3, widest.distance_m * 1e3,
-      widest.angle_rad * kDegreesPerRadian);
+  const auto widest_after = [&](double time_s) {
+    return widest_deviation(time_s, known(kPosition) + measurement.position_covariance,
+                            known(kNormal) + measurement.normal_covariance, parameters_);
+  };
+  const Deviation alone = widest_after(std::min(dt_s, kBelievedAlone));
+  if (is.is_within(alone)) return std::nullopt;
+  return Outlier{
+      fmt::format("outlier: {:.0f} mm and {:.0f} degrees from where the target should be; a "
+                  "measurement alone is believed within {:.0f} mm and {:.0f} degrees",
+                  is.distance_m * 1e3, is.angle_rad * kDegreesPerRadian, alone.distance_m * 1e3,
+                  alone.angle_rad * kDegreesPerRadian),
+      is.is_within(widest_after(dt_s))};
 }
 
 /// The next belief, or why the measurement was rejected, which `belief` counts.
@@ -258,10 +279,12 @@ Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasure
   const auto innovation_of = [&](const Belief& b) {
     return innovation(measurement, b.mean, b.covariance);
   };
-  if (const auto outlier = why_outlier(measurement, belief, moving)) {
+  if (const auto off = outlier(measurement, belief, moving)) {
     // An estimate is worth as many outliers as it has measurements, at most restart_after.
-    const int enough = std::min(parameters_.restart_after, belief.measurements);
-    if (belief.outliers.count_with(measurement, parameters_) < enough) return refuse(*outlier);
+    const int most = off->is_possible ? std::min(kPossible, parameters_.restart_after)
+                                      : parameters_.restart_after;
+    const int enough = std::min(most, belief.measurements);
+    if (belief.outliers.count_with(measurement, parameters_) < enough) return refuse(off->why);
     return started_at(measurement);
   }
 
@@ -294,6 +317,10 @@ Expected<TargetEstimate> ConstantVelocity::predict(Time when, const PluginState&
   if (dt > parameters_.max_gap) {
     return refuse(
         fmt::format("{:.2f} s without a measurement, more than {:.2f} s", dt, parameters_.max_gap));
+  }
+  if (dt < -kMaxBack) {
+    return refuse(
+        fmt::format("{:.2f} s before the newest measurement, more than {:.2f} s", -dt, kMaxBack));
   }
   Vector12 mean = belief->mean;
   carry_on(mean, dt, belief->moving ? 1.0 : std::exp(-dt / parameters_.decay));

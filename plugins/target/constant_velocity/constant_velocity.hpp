@@ -27,9 +27,11 @@ class ConstantVelocity final : public TargetFilter {
   struct Belief;
   Belief started_at(const TargetMeasurement& measurement) const;
   Expected<Belief> updated(const TargetMeasurement& told, Belief& belief) const;
-  /// Why no target is seen like this that was as `belief` says and is `predicted` where it goes on.
-  std::optional<std::string> why_outlier(const TargetMeasurement& measurement, const Belief& belief,
-                                         const Belief& predicted) const;
+  /// Why this measurement alone is not believed of a target that was as `belief` says and is
+  /// `predicted` where it goes on.
+  struct Outlier;
+  std::optional<Outlier> outlier(const TargetMeasurement& measurement, const Belief& belief,
+                                 const Belief& predicted) const;
   void advance(Belief& belief, double dt_s, bool moving) const;
 
   Parameters parameters_;

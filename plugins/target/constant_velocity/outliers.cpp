@@ -25,10 +25,11 @@ Deviation widest_deviation(double dt_s, const Eigen::Matrix3d& position_covarian
 int Outliers::count_with(const TargetMeasurement& outlier, const Parameters& parameters) {
   Eigen::Map<Eigen::Vector3d> last_position{position.data()}, last_normal{normal.data()};
   const double dt = to_seconds(outlier.stamp - stamp);
-  const bool agrees = count > 0 && dt > 0 &&
-                      deviation(outlier.position - last_position, outlier.normal - last_normal)
-                          .is_within(widest_deviation(dt, 2 * outlier.position_covariance,
-                                                      2 * outlier.normal_covariance, parameters));
+  const bool agrees =
+      count > 0 && dt > 0 &&
+      deviation(outlier.position - last_position, outlier.normal - last_normal)
+          .is_within(widest_deviation(std::min(dt, kBelievedAlone), 2 * outlier.position_covariance,
+                                      2 * outlier.normal_covariance, parameters));
   count = agrees ? count + 1 : 1;
   stamp = outlier.stamp;
   last_position = outlier.position;

@@ -21,6 +21,10 @@ struct Deviation {
 Deviation deviation(const Eigen::Vector3d& position_difference,
                     const Eigen::Vector3d& normal_difference);
 
+/// [s] The most of the time without a measurement that a single one is believed to have moved in:
+/// about what passes between two pictures. Over a longer gap one that is alone says nothing.
+constexpr double kBelievedAlone = 0.1;
+
 /// The widest that a target explains which moves for `dt_s` as fast as the parameters let it, where
 /// the two sights together are known to these covariances ([m2], [rad2]).
 Deviation widest_deviation(double dt_s, const Eigen::Matrix3d& position_covariance,

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "armature/robot/geometry/rotation_vector.hpp"
 
@@ -31,19 +32,47 @@ void FaceAverage::add(const FaceEstimate& estimate) {
   if (estimates_.size() > capacity_) estimates_.pop_front();
 }
 
-FaceEstimate FaceAverage::mean(std::size_t count) const {
-  const std::size_t used = std::min(count, estimates_.size());
-  FaceEstimate mean{.stamp = estimates_.back().stamp,
-                    .mouth = Eigen::Vector3d::Zero(),
-                    .normal = Eigen::Vector3d::Zero()};
-  for (auto it = estimates_.end() - static_cast<std::ptrdiff_t>(used); it != estimates_.end();
-       ++it) {
-    mean.mouth += it->mouth;
-    mean.normal += it->normal;
+FaceEstimate FaceAverage::median(std::size_t count) const {
+  const auto used = newest(count);
+  std::vector<double> sorted(used.size());
+  const auto median_of = [&](Eigen::Vector3d FaceEstimate::*vector, int axis) {
+    std::ranges::transform(used, sorted.begin(),
+                           [&](const FaceEstimate& e) { return (e.*vector)[axis]; });
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    std::ranges::nth_element(sorted, middle);
+    return *middle;
+  };
+  FaceEstimate median{.stamp = estimates_.back().stamp};
+  for (int axis = 0; axis < 3; ++axis) {
+    median.mouth[axis] = median_of(&FaceEstimate::mouth, axis);
+    median.normal[axis] = median_of(&FaceEstimate::normal, axis);
   }
-  mean.mouth /= static_cast<double>(used);
+  median.normal.normalize();
+  return median;
+}
+
+FaceEstimate FaceAverage::mean(std::size_t count, const FaceBand& band) const {
+  const FaceEstimate middle = median(count);
+  FaceEstimate mean{
+      .stamp = middle.stamp, .mouth = Eigen::Vector3d::Zero(), .normal = Eigen::Vector3d::Zero()};
+  int used = 0;
+  for (const FaceEstimate& estimate : newest(count)) {
+    if (band.left_by(estimate, middle)) continue;
+    mean.mouth += estimate.mouth;
+    mean.normal += estimate.normal;
+    ++used;
+  }
+  if (used == 0) return middle;
+  mean.mouth /= used;
   mean.normal.normalize();
   return mean;
+}
+
+bool FaceAverage::have_left(std::size_t count, const FaceBand& band,
+                            const FaceEstimate& face) const {
+  return estimates_.size() >= count &&
+         std::ranges::all_of(newest(count),
+                             [&](const FaceEstimate& e) { return band.left_by(e, face); });
 }
 
 }  // namespace armature::task::lamp_alignment

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstddef>
 #include <deque>
+#include <ranges>
 
 #include "armature/values/time.hpp"
 
@@ -31,7 +33,7 @@ struct FaceBand {
   bool left_by(const FaceEstimate& a, const FaceEstimate& b) const;
 };
 
-/// The mean of the newest estimates, at most `capacity` of them.
+/// The newest estimates, at most `capacity` of them.
 class FaceAverage {
  public:
   explicit FaceAverage(std::size_t capacity) : capacity_{capacity} {}
@@ -39,10 +41,20 @@ class FaceAverage {
   void clear() { estimates_.clear(); }
   void add(const FaceEstimate& estimate);
   std::size_t count() const { return estimates_.size(); }
-  /// Of the newest `count` estimates, at least one of which there must be.
-  FaceEstimate mean(std::size_t count) const;
+  /// Of the newest `count` estimates, at least one of which there must be: the median of each
+  /// coordinate, which one that disagrees with the others hardly moves.
+  FaceEstimate median(std::size_t count) const;
+  /// The mean of those of them that lie within `band` of their median.
+  FaceEstimate mean(std::size_t count, const FaceBand& band) const;
+  /// Each of the newest `count` estimates is beyond `band` of `face`; false while there are fewer.
+  bool have_left(std::size_t count, const FaceBand& band, const FaceEstimate& face) const;
 
  private:
+  auto newest(std::size_t count) const {
+    const auto used = static_cast<std::ptrdiff_t>(std::min(count, estimates_.size()));
+    return std::ranges::subrange{estimates_.end() - used, estimates_.end()};
+  }
+
   std::size_t capacity_;
   std::deque<FaceEstimate> estimates_;
 };

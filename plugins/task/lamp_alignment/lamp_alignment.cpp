@@ -62,6 +62,7 @@ const char* to_string(LampAlignment::Phase phase) {
 
 LampAlignment::LampAlignment(const Parameters& parameters, double joint_6_to_lamp)
     : parameters_{parameters},
+      few_{static_cast<std::size_t>(parameters.moved_frames)},
       procedure_{{{.name = "light"},
                   {.name = "search", .asks = true},
                   {.name = "alignment", .asks = true}},
@@ -72,7 +73,8 @@ LampAlignment::LampAlignment(const Parameters& parameters, double joint_6_to_lam
       poses_{search_poses(parameters, joint_6_to_lamp)},
       light_{parameters},
       face_{parameters},
-      at_rest_{window_of(parameters)} {}
+      at_rest_{window_of(parameters)},
+      recent_{few_} {}
 
 void LampAlignment::see(const Picture& picture, Time now) {
   face_.see(picture, now);
@@ -92,7 +94,7 @@ void LampAlignment::see(const Picture& picture, Time now) {
 
 void LampAlignment::see(const FaceEstimate& estimate) {
   if (!face_.see(estimate)) return;
-  ++fresh_;
+  recent_.add(estimate);
   if (goals_.state() == GoalState::done && estimate.stamp >= goals_.done_at()) {
     at_rest_.add(estimate);
   }
@@ -152,21 +154,21 @@ void LampAlignment::align_with(const FaceEstimate& estimate, Phase phase, Time n
   trouble_.clear();
   goal_estimate_ = estimate;
   goal_set_at_ = now;
-  fresh_ = 0;
+  recent_.clear();
   at_rest_.clear();
   goals_.set(face_goal(estimate, parameters_.distance));
 }
 
-bool LampAlignment::follow_if_moved(Time now) {
-  if (to_seconds(now - goal_set_at_) < parameters_.replan_interval) return false;
-  if (fresh_ == 0 || !moved_.left_by(latest(), *goal_estimate_)) return false;
-  align_with(latest(), phase_, now);  // the first approach stays one
-  return true;
+bool LampAlignment::has_moved() const { return recent_.have_left(few_, moved_, *goal_estimate_); }
+
+void LampAlignment::follow_if_moved(Time now) {
+  if (to_seconds(now - goal_set_at_) < parameters_.replan_interval || !has_moved()) return;
+  align_with(recent(), phase_, now);  // the first approach stays one
 }
 
 bool LampAlignment::may_go_along() const {
-  return fresh_ > 0 && face_.begins_to_move() && settled_.left_by(latest(), *goal_estimate_) &&
-         !kAlong.left_by(latest(), *goal_estimate_);
+  return recent_.count() > 0 && face_.begins_to_move() &&
+         settled_.left_by(latest(), *goal_estimate_) && !kAlong.left_by(latest(), *goal_estimate_);
 }
 
 /// A new target in every step, so that the arm never waits for the next picture.
@@ -213,13 +215,12 @@ void LampAlignment::come_to_rest(Time now) {
   trouble_ = face_.disbelief(goals_.done_at());
   if (may_go_along()) return go_along(now);
   const auto frames = static_cast<std::size_t>(parameters_.settle_frames);
-  const auto few = static_cast<std::size_t>(parameters_.moved_frames);
-  if (at_rest_.count() == few && moved_.left_by(at_rest_.mean(few), *goal_estimate_)) {
-    align_with(at_rest_.mean(few), phase_, now);
+  if (at_rest_.count() >= few_ && has_moved()) {
+    align_with(recent(), phase_, now);
     return;
   }
   if (at_rest_.count() < frames) return;
-  const FaceEstimate mean = at_rest_.mean(frames);
+  const FaceEstimate mean = at_rest_.mean(frames, moved_);
   if (settled_.left_by(mean, *goal_estimate_)) {
     align_with(mean, phase_, now);
   } else {
@@ -234,13 +235,11 @@ void LampAlignment::hold(Time now) {
   }
   trouble_ = face_.disbelief(goals_.done_at());
   if (may_go_along()) return go_along(now);
-  const auto few = static_cast<std::size_t>(parameters_.moved_frames);
-  const FaceEstimate recent = at_rest_.mean(few);
-  if (moved_.left_by(recent, *goal_estimate_)) {
-    align_with(latest(), Phase::following, now);
+  if (has_moved()) {
+    align_with(recent(), Phase::following, now);
     return;
   }
-  const FaceEstimate mean = at_rest_.mean(window_of(parameters_));
+  const FaceEstimate mean = at_rest_.mean(window_of(parameters_), moved_);
   if (at_rest_.count() >= window_of(parameters_) && replan_.left_by(mean, *goal_estimate_)) {
     align_with(mean, Phase::aligning, now);
   }
@@ -263,10 +262,10 @@ void LampAlignment::wait_for_another_face_position(Time now) {
   const double wait_s = std::min(std::ldexp(parameters_.replan_interval, refused_ - 1),
                                  parameters_.max_retry_interval);
   if (to_seconds(now - goal_set_at_) < wait_s) return;
-  const auto& elsewhere = goals_.stopped() ? moved_ : settled_;
-  if (elsewhere.left_by(latest(), *goal_estimate_)) {
+  if (recent_.count() < few_) return;
+  if (goals_.stopped() ? has_moved() : settled_.left_by(latest(), *goal_estimate_)) {
     const std::string why = trouble_;
-    align_with(latest(), Phase::unreachable, now);
+    align_with(recent(), Phase::unreachable, now);
     refused_ = std::min(refused_ + 1, kMostRefusals);
     trouble_ = why;  // until a goal is accepted
   }

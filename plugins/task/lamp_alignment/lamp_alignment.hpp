@@ -79,7 +79,10 @@ class LampAlignment {
   void come_to_rest(Time now);
   void hold(Time now);
   void wait_for_another_face_position(Time now);
-  bool follow_if_moved(Time now);
+  void follow_if_moved(Time now);
+  /// Each of the newest `moved_frames` estimates says that the face is elsewhere than the goal has
+  /// it. One alone that disagrees with the others moves nothing.
+  bool has_moved() const;
   /// Whether the patient has begun to move, and the lamp is near enough to go with him.
   bool may_go_along() const;
   void go_along(Time now);
@@ -87,8 +90,11 @@ class LampAlignment {
   /// At rest before a face, or where one should be.
   bool lost() const;
   const FaceEstimate& latest() const { return *face_.latest(); }
+  /// Where the newest `moved_frames` estimates have the face.
+  FaceEstimate recent() const { return recent_.median(few_); }
 
   Parameters parameters_;
+  std::size_t few_;  // moved_frames
   Procedure procedure_;
   FaceBand settled_, replan_, moved_;
   std::vector<ToolPose> poses_;
@@ -97,7 +103,7 @@ class LampAlignment {
   PursuedGoal goals_;
   FaceAverage at_rest_;  // estimates since the arm came to rest
   std::optional<FaceEstimate> goal_estimate_;
-  std::size_t fresh_ = 0;    // estimates since the goal was set
+  FaceAverage recent_;       // estimates since the goal was set, the newest moved_frames
   bool goes_along_ = false;  // with the patient, in tracking mode
   Phase phase_ = Phase::checking_light;
   bool capture_ = true;

@@ -32,6 +32,49 @@ TEST_F(LampAlignmentTest, DoesNotReplanWhileEverythingIsStill) {
   EXPECT_EQ(task_.phase(), Phase::holding);
 }
 
+TEST_F(LampAlignmentTest, AnEstimateThatDisagreesWithTheOthersSendsNoGoalWhileItHolds) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  const std::size_t goals = goals_.size();
+  for (const double off_m : {0.04, 0.08, 0.1, 0.15, 0.25}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      phantom_ = off_m * Eigen::Vector3d::Unit(axis);
+      run(1);
+      ASSERT_TRUE(phantom_.isZero()) << "it was seen";
+      EXPECT_EQ(goals_.size(), goals) << off_m << " m along axis " << axis;
+      EXPECT_EQ(task_.phase(), Phase::holding);
+    }
+  }
+}
+
+TEST_F(LampAlignmentTest, AnEstimateThatDisagreesWithTheOthersIsNeverItsGoalOnTheWay) {
+  ASSERT_TRUE(run_until(Phase::aligning, 10));
+  const std::size_t first = goals_.size();
+  for (int k = 0; k < 300 && task_.phase() != Phase::holding; ++k) {
+    if (k % 40 == 20) phantom_ = {-0.1, 0.05, 0};
+    tick();
+  }
+  EXPECT_EQ(task_.phase(), Phase::holding);
+  ASSERT_GT(goals_.size(), 0u);
+  for (std::size_t i = first; i < goals_.size(); ++i)
+    EXPECT_LT((*goals_[i].focus - mouth_).norm(), 0.003) << "goal " << i;
+}
+
+TEST_F(LampAlignmentTest, AnEstimateThatDisagreesWithTheOthersSendsNoGoalAfterAStop) {
+  ASSERT_TRUE(run_until(Phase::aligning, 10));
+  tick();
+  stop();
+  run(1);
+  rearm();
+  lamp_.orientation = Direction{Eigen::Vector3d::UnitX()};
+  const std::size_t goals = goals_.size();
+  for (int k = 0; k < 10; ++k) {
+    phantom_ = {-0.1, 0.05, 0};
+    run(1);
+    ASSERT_TRUE(phantom_.isZero()) << "it was seen";
+  }
+  EXPECT_EQ(goals_.size(), goals);
+}
+
 TEST_F(LampAlignmentTest, FollowsThePatient) {
   ASSERT_TRUE(run_until(Phase::holding, 15));
   for (int k = 0; k < 50; ++k) {  // 50 mm and 10 degrees in one second

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "lamp_alignment.hpp"
@@ -83,11 +84,12 @@ class LampAlignmentTest : public testing::Test {
                       .can_be_used = unusable_.empty()});
     if (!in_view) measurements_ = 0;
     if (seen && believed_ && unusable_.empty())
-      task_.see(FaceEstimate{.stamp = now_,
-                             .mouth = mouth_ + noise(noise_m_),
-                             .normal = (normal_ + noise(noise_rad_)).normalized(),
-                             .velocity = velocity_,
-                             .measurements = measurements_ += !predicts_});
+      task_.see(FaceEstimate{
+          .stamp = now_,
+          .mouth = mouth_ + noise(noise_m_) + std::exchange(phantom_, Eigen::Vector3d::Zero()),
+          .normal = (normal_ + noise(noise_rad_)).normalized(),
+          .velocity = velocity_,
+          .measurements = measurements_ += !predicts_});
   }
   Eigen::Vector3d noise(double sigma) {
     std::normal_distribution<double> normal{0, sigma};
@@ -109,6 +111,7 @@ class LampAlignmentTest : public testing::Test {
   double reach_m_ = 10, gain_ = 1, light_ = 0;
   double noise_m_ = 0.0005, noise_rad_ = 0.01;
   Eigen::Vector3d mouth_{1.55, 0, 0.45}, normal_{-1, 0, 0}, velocity_{0, 0, 0};
+  Eigen::Vector3d phantom_{0, 0, 0};  // by which the mouth is seen elsewhere, in one picture
   std::mt19937 random_{5};
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -60,7 +61,7 @@ class TaskPorts {
   }
 
   /// What the operator reads of it, when that is not what he read before: `line`, unless a step
-  /// asks.
+  /// asks. Other numbers in the report's detail, such as each picture has them, are no news to him.
   std::optional<std::string> publish(Time now, const TaskReport& report, std::string line,
                                      const Procedure& procedure) {
     constexpr Duration kPeriod = seconds(0.2);
@@ -70,7 +71,8 @@ class TaskPorts {
     if (procedure.paused()) line = "paused: " + line;
     const bool changed = line != line_;
     if (!changed && !answers_.waits() && now - published_ < kPeriod) return std::nullopt;
-    line_ = line;
+    const std::string said = std::exchange(words_, words_of(line, report.detail));
+    line_ = std::move(line);
     published_ = now;
     auto loan = state_.loan();
     write_header(loan->header_(), now);
@@ -83,10 +85,18 @@ class TaskPorts {
     loan->answered_(answer.id);
     loan->answer_() = answer.text;
     loan.publish();
-    return changed ? std::optional{line_} : std::nullopt;
+    return words_ != said ? std::optional{line_} : std::nullopt;
   }
 
  private:
+  /// The line without the numbers of the detail at its end.
+  static std::string words_of(std::string line, const std::string& detail) {
+    if (!line.ends_with(detail)) return line;
+    const auto begins = line.end() - static_cast<std::ptrdiff_t>(detail.size());
+    const auto is_of_number = [](char c) { return (c >= '0' && c <= '9') || c == '.' || c == '-'; };
+    line.erase(std::remove_if(begins, line.end(), is_of_number), line.end());
+    return line;
+  }
   static void write_procedure(const Procedure& procedure, msg::TaskState& state) {
     state.procedure_().resize(procedure.steps().size());
     for (std::size_t i = 0; i < procedure.steps().size(); ++i) {
@@ -100,7 +110,7 @@ class TaskPorts {
 
   Input<msg::OperatorCommand> operator_;
   Output<msg::TaskState> state_;
-  std::string line_;
+  std::string line_, words_;  // as told last
   AnsweredWords answers_;
   bool said_who_confirms_ = false;
   Time published_;

@@ -4,6 +4,8 @@
 // it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "armature/kinds/target/target_messages.hpp"
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
@@ -230,6 +232,33 @@ TEST_F(LampAlignmentComponentTest, StaysWhileTheFacePoseCannotUseThePicturesAndS
   EXPECT_EQ(goals_.size(), goals);
   EXPECT_EQ(task_.lines().back(),
             "aligning: no picture could be used for 2 s: the right camera is frozen");
+}
+
+TEST_F(LampAlignmentComponentTest, SaysAReasonOnceWhileOnlyItsNumbersDiffer) {
+  step();
+  task_.send("target", face());
+  step();
+  report(1, 1);
+  report(1, 2);
+  for (int k = 0; k < 300; ++k) {
+    msg::FaceLandmarks seen;
+    write_header(seen.header_(), Time{} + seconds(now_s_), "left_camera_optical");
+    seen.valid_(true);
+    seen.image_intensity_(100);
+    seen.face_intensity_(100);
+    task_.send("landmarks", seen);
+    msg::Target refused = face();
+    refused.valid_(false);
+    refused.reason_("covered by " + std::to_string(10 + k % 7) + " %");
+    task_.send("target", refused);
+    step();
+  }
+  EXPECT_TRUE(states_.back().detail_().ends_with("covered by 15 %")) << states_.back().detail_();
+  EXPECT_EQ(std::ranges::count_if(task_.lines(),
+                                  [](const std::string& line) {
+                                    return line.find("covered by") != std::string::npos;
+                                  }),
+            1);
 }
 
 TEST_F(LampAlignmentComponentTest, CountsItsGoalsFromWhereTheMotionIs) {

@@ -84,6 +84,45 @@ std::optional<std::string> too_far_apart(const HandEyeFit& fit, const PoseNoise&
       degrees(most.rotation_rad));
 }
 
+/// Lengths of which the tracker and the arm have different ideas, to be read as a reason.
+std::optional<std::string> scaled(const HandEyeFit& fit) {
+  constexpr double kLeast = 1e-4;  // 0.1 mm in a metre, which no tracker tells
+  const TrackerScale& scale = fit.scale;
+  if (std::abs(scale.value - 1) < kLeast || !beyond_chance({scale.ratio, 1, scale.freedom}, 1)) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "the tracker's lengths are {:.4f} times the arm's; are the body's file and the robot's "
+      "right?",
+      scale.value);
+}
+
+/// What remains where a noise is stated that explains it not at all, to be read as a reason.
+std::optional<std::string> beyond_stated(const HandEyeFit& fit,
+                                         const std::optional<PoseNoise>& stated) {
+  if (!stated) return std::nullopt;
+  double shifts = 0, turns = 0;
+  for (const PoseResidual& residual : fit.residuals) {
+    shifts += residual.shift.squaredNorm();
+    turns += residual.turn.squaredNorm();
+  }
+  const PoseNoise shown{std::sqrt(shifts / std::max(fit.shift_freedom, 1.0)),
+                        std::sqrt(turns / std::max(fit.turn_freedom, 1.0))};
+  const auto beyond = [](double shows, double says, double freedom) {
+    const int equations = std::max(static_cast<int>(std::lround(freedom)), 1);
+    return beyond_chance({std::pow(shows / says, 2), equations, kStatedFreedom}, 1);
+  };
+  if (!beyond(shown.position_m, stated->position_m, fit.shift_freedom) &&
+      !beyond(shown.rotation_rad, stated->rotation_rad, fit.turn_freedom)) {
+    return std::nullopt;
+  }
+  return fmt::format(
+      "all poses together show a noise of {:.3g} mm and {:.3g} deg, more than the stated {:.3g} mm "
+      "and {:.3g} deg; was the tracker knocked between them, or does more err than it?",
+      millimetres(shown.position_m), degrees(shown.rotation_rad), millimetres(stated->position_m),
+      degrees(stated->rotation_rad));
+}
+
 /// The pose that the others contradict, to be read as a reason.
 std::optional<std::string> outlying(std::span<const HandEyePose> poses, const HandEyeFit& all,
                                     const HandEyeOptions& options) {
@@ -95,6 +134,7 @@ std::optional<std::string> outlying(std::span<const HandEyePose> poses, const Ha
   }
   const auto fit = fit_hand_eye(others, options.noise);
   if (!fit || too_far_apart(*fit, options.max_residual)) return std::nullopt;
+  if (beyond_stated(*fit, options.noise)) return std::nullopt;  // it is not this pose alone
   const Misfit misfit = misfit_of(poses[all.suspect], *fit);
   const double shift = misfit.residual.shift.norm(), turn = misfit.residual.turn.norm();
   const auto doubtful = [&](double off, double ratio, double freedom) {
@@ -181,8 +221,13 @@ Expected<HandEye> calibrate_hand_eye(std::span<const HandEyePose> poses,
 
   const auto fit = fit_hand_eye(poses, options.noise);
   if (!fit) return tl::unexpected{fit.error()};
+  if (auto apart = too_far_apart(*fit, options.max_residual)) {
+    auto stranger = outlying(poses, *fit, options);
+    return refuse(std::move(stranger ? *stranger : *apart));
+  }
+  if (auto longer = scaled(*fit)) return refuse(std::move(*longer));
   if (auto stranger = outlying(poses, *fit, options)) return refuse(std::move(*stranger));
-  if (auto apart = too_far_apart(*fit, options.max_residual)) return refuse(std::move(*apart));
+  if (auto more = beyond_stated(*fit, options.noise)) return refuse(std::move(*more));
   HandEye result = result_of(*fit);
   result.spread_rad = spread[1];
   return result;

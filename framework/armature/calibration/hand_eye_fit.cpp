@@ -138,6 +138,43 @@ class Fit {
   PoseNoise noise_;
 };
 
+/// The one more parameter u of the fit whose shifts are predicted - u measured: at the best fit for
+/// u = 1 the residuals lie square to all slopes, so that what is left of its own slope beside them
+/// tells it (the score test; C. R. Rao, Proc. Cambridge Phil. Soc. 44, 1948).
+TrackerScale scale_of(std::span<const HandEyePose> poses, const HandEyeFit& fit,
+                      const Fit& weights) {
+  const auto own_slope = [&](const HandEyePose& pose) {
+    return weights.weighed(PoseResidual{.shift = -pose.tracker_T_body.translation()});
+  };
+  const auto shared_slope = [&](std::size_t i) {
+    return weights.weighed(slope_at(fit.found, poses[i], fit.residuals[i]));
+  };
+  SmallVector shared = SmallVector::Zero(12);
+  double own = 0, along = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const SmallVector slope = own_slope(poses[i]);
+    shared += shared_slope(i).transpose().lazyProduct(slope);
+    own += slope.squaredNorm();
+    along += slope.dot(weights.weighed(fit.residuals[i]));
+  }
+  const SmallVector others = fit.covariance.lazyProduct(shared);
+  const double left = own - shared.dot(others);
+  constexpr double kLeast = 1e-6;  // of the slope: with less, no scale shows
+  TrackerScale scale;
+  scale.freedom = fit.shift_freedom - 1;
+  if (left < kLeast * own || scale.freedom < 1) return scale;
+  const double step = -along / left;
+  double remaining = 0;
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    SmallVector residual = weights.weighed(fit.residuals[i]) + step * own_slope(poses[i]);
+    residual -= step * shared_slope(i).lazyProduct(others);
+    remaining += residual.head<3>().squaredNorm();
+  }
+  scale.value = 1 / (1 + step);
+  scale.ratio = along * along / left / (remaining / scale.freedom);
+  return scale;
+}
+
 /// What the poses tell at their best fit.
 HandEyeFit told(std::span<const HandEyePose> poses, const RobotWorld& found,
                 const PoseNoise& noise) {
@@ -161,6 +198,7 @@ HandEyeFit told(std::span<const HandEyePose> poses, const RobotWorld& found,
     most = taken;
     result.suspect = i;
   }
+  result.scale = scale_of(poses, result, fit);
   return result;
 }
 

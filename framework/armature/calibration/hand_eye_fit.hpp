@@ -17,6 +17,15 @@ struct PoseResidual {
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
 };
 
+/// The tracker's lengths over the arm's, as one more parameter of the fit would have them, to first
+/// order.
+struct TrackerScale {
+  double value = 1;
+  /// What the parameter takes off the sum of squares of the shifts, as a ratio to the mean square
+  /// that then remains, and over how many equations.
+  double ratio = 0, freedom = 0;
+};
+
 /// The least sum of squares of all poses, each residual over its noise, and what it tells.
 struct HandEyeFit {
   RobotWorld found;
@@ -28,6 +37,7 @@ struct HandEyeFit {
   double shift_freedom = 0, turn_freedom = 0;
   /// The index of the pose without which the sum of squares would be least, to first order.
   std::size_t suspect = 0;
+  TrackerScale scale;
 };
 
 /// By Levenberg and Marquardt's steps from the closed form of robot_world.hpp. Without a stated

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <functional>
 #include <limits>
 
@@ -211,7 +212,8 @@ TEST_F(HandEyeCalibration, DoesNotDoubtPosesThatAreAsGoodAsTheOthers) {
     if (trial % 2 == 0) options.noise = PoseNoise{0.035e-3, 1.6e-3};  // about what it is
     const auto found = calibrate_hand_eye(recorded(4 + trial % 10, 0.12e-3), options);
     if (found) continue;  // four random ones may turn about one axis only
-    EXPECT_FALSE(found.error().text.starts_with("pose ")) << trial << ": " << found.error().text;
+    EXPECT_TRUE(found.error().text.starts_with("the flange turns"))
+        << trial << ": " << found.error().text;
   }
 }
 
@@ -298,6 +300,36 @@ TEST_F(HandEyeCalibration, RefusesPosesThatDoNotBelongTogether) {
     EXPECT_TRUE(
         found.error().text.ends_with("is a transform the wrong way round, or a unit wrong?"));
   }
+}
+
+TEST_F(HandEyeCalibration, TellsByHowMuchTheTrackersLengthsAreNotTheArms) {
+  for (const double scale : {0.98, 0.995, 1.002, 1.005, 1.02}) {
+    Poses poses = recorded(20, 0.12e-3);
+    for (HandEyePose& pose : poses) pose.tracker_T_body.translation() *= scale;
+    for (const bool states : {false, true}) {
+      HandEyeOptions options;
+      if (states) options.noise = PoseNoise{0.035e-3, 1.6e-3};
+      const auto found = calibrate_hand_eye(poses, options);
+      ASSERT_FALSE(found)
+          << scale << ": the body is off by "
+          << (found->flange_T_body.translation() - flange_T_body_.translation()).norm();
+      double told = 0;
+      ASSERT_EQ(std::sscanf(found.error().text.c_str(),
+                            "the tracker's lengths are %lf times the arm's; ", &told),
+                1)
+          << scale << ": " << found.error().text;
+      EXPECT_NEAR(told, scale, 0.001);
+    }
+  }
+}
+
+TEST_F(HandEyeCalibration, NamesNoSinglePoseWhereAllErrMoreThanIsStated) {
+  const Poses poses = recorded(20, 0.6e-3);
+  const auto found = calibrate_hand_eye(poses, {.noise = PoseNoise{0.035e-3, 1.6e-3}});
+  ASSERT_FALSE(found);
+  EXPECT_TRUE(found.error().text.starts_with("all poses together show a noise of "))
+      << found.error().text;
+  EXPECT_TRUE(calibrate_hand_eye(poses));
 }
 
 TEST_F(HandEyeCalibration, RefusesARecordSaidTwiceButNotAPostureMeasuredTwice) {

@@ -34,9 +34,9 @@ constexpr double kSettledRates = 1.3;     // normalised square of the rates: 1 f
 constexpr double kMaxVariance = 1e6;      // [m2], [rad2]: such a measurement says nothing
 constexpr int kPossible = 2;              // outliers that agree, where the target can have gone
 
-// What is added to the covariances of a measurement, [m2] and [rad2]: no camera sees a face better
-// than to 0.1 mm and 1 mrad, and covariances of zero would make motion of all noise.
-constexpr double kAddedPosition = 1e-8, kAddedNormal = 1e-6;
+// What is added to the covariances of a measurement, [m2] and [rad2]: (0.02 mm)^2 and (0.2 mrad)^2,
+// less than any camera errs. Covariances of zero would make motion of all noise.
+constexpr double kAddedPosition = 4e-10, kAddedNormal = 4e-8;
 
 constexpr double kMaxBack = 0.1;  // [s] by which a prediction may be before the newest measurement
 

@@ -63,6 +63,11 @@ RobotModel::RobotModel(RobotParts parts) : parts_{std::move(parts)} {
   require_parents("frame", frames());
   require_parents("capsule", capsules());
   require_parents("mass", masses());
+  for (const Joint& joint : joints()) {
+    require(joint.lower <= joint.upper,
+            fmt::format("joint {}: its lower limit {:g} is above its upper limit {:g}", joint.name,
+                        joint.lower, joint.upper));
+  }
   require(!home() || home()->size() == joint_count(), "home needs a value for every joint");
   if (parts_.pointing_axis) parts_.pointing_axis->normalize();
   if (parts_.shaft) parts_.shaft->axis.normalize();
@@ -216,8 +221,9 @@ JointVector resting_position(const RobotModel& model) {
     if (auto home = model.to_independent(*model.home())) return *home;
   }
   JointVector middle = 0.5 * (model.lower() + model.upper());
-  for (double& q : middle) {
-    if (!std::isfinite(q)) q = 0;
+  for (int i = 0; i < model.dof(); ++i) {
+    if (!std::isfinite(middle[i]))
+      middle[i] = std::min(std::max(0.0, model.lower()[i]), model.upper()[i]);
   }
   return middle;
 }

@@ -122,6 +122,43 @@ TEST(RobotModel, RefusesPartsThatDoNotFit) {
   EXPECT_THROW(make(FrameId{0}), std::invalid_argument);
 }
 
+/// One joint, between these limits.
+RobotModel joint_between(double lower, double upper) {
+  Joint joint;
+  joint.name = "slide";
+  joint.type = Joint::Type::prismatic;
+  joint.lower = lower;
+  joint.upper = upper;
+  return {{"one",
+           RobotModel::Convention::standard,
+           {joint},
+           {{"tool", 0, Eigen::Isometry3d::Identity()}},
+           FrameId{0},
+           std::nullopt,
+           std::nullopt}};
+}
+
+TEST(RobotModel, RestsWithinLimitsOfWhichOneIsInfinite) {
+  EXPECT_EQ(resting_position(joint_between(1, INFINITY))[0], 1);
+  EXPECT_EQ(resting_position(joint_between(-INFINITY, -2))[0], -2);
+  EXPECT_EQ(resting_position(joint_between(-1, INFINITY))[0], 0);
+  EXPECT_EQ(resting_position(joint_between(-INFINITY, INFINITY))[0], 0);
+  EXPECT_EQ(resting_position(joint_between(1, 2))[0], 1.5);
+}
+
+TEST(RobotModel, RefusesLimitsThatAreTheWrongWayRound) {
+  const auto reason = [](double lower, double upper) -> std::string {
+    try {
+      joint_between(lower, upper);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "none";
+  };
+  EXPECT_EQ(reason(1, -1), "joint slide: its lower limit 1 is above its upper limit -1");
+  EXPECT_EQ(reason(1, 1), "none");
+}
+
 TEST(PoseResidual, MeasuresDirectionsAndRotationsToTheLastDigit) {
   const Eigen::Isometry3d here = Eigen::Isometry3d::Identity();
   for (const double angle : {1e-12, 1e-6, 0.5, 3.0}) {

@@ -183,6 +183,7 @@ double next_rest_s(const Trajectory& trajectory, double from_s) {
 }
 
 Retimed brake(const Trajectory& trajectory, double from_s, const MotionLimits& limits) {
+  from_s = std::clamp(from_s, 0.0, trajectory.duration_s());
   const double rest_s =
       at_rest(state_at(trajectory.view(), from_s)) ? from_s : next_rest_s(trajectory, from_s);
   for (double at_s = from_s; at_s < rest_s; at_s += kDelay_s) {
@@ -198,6 +199,8 @@ Retimed brake(const Trajectory& trajectory, double from_s, const MotionLimits& l
 
 Retimed speed_up(const Trajectory& trajectory, double from_s, double to_s,
                  const MotionLimits& limits) {
+  from_s = std::clamp(from_s, 0.0, trajectory.duration_s());
+  to_s = std::min(to_s, trajectory.duration_s());
   if (to_s <= from_s) return {part(trajectory, from_s, from_s), 0, from_s};
   for (double lasts = kShortestRamp_s; lasts <= kLongestRamp_s; lasts *= kLonger) {
     const Law law = ramp(Law::Shape::up, from_s, lasts);

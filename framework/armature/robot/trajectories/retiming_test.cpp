@@ -129,6 +129,23 @@ TEST_F(RetimingTest, ABrakedMotionComesToRestOnItsPathWithinLimitsWhereverItIsBr
   }
 }
 
+TEST_F(RetimingTest, PlacesBeforeAndBehindTheMotionAreItsEnds) {
+  const Trajectory whole = way();
+  const double end = whole.duration_s();
+  EXPECT_EQ(brake(whole, -5, limits_).place_s, 0);
+  EXPECT_EQ(brake(whole, 1e9, limits_).place_s, end);
+  EXPECT_EQ(speed_up(whole, -5, -4, limits_).place_s, 0);
+  EXPECT_EQ(speed_up(whole, 1e9, 2e9, limits_).place_s, end);
+  const Retimed before = speed_up(whole, -5, stop_s_, limits_);
+  const Retimed from_start = speed_up(whole, 0, stop_s_, limits_);
+  EXPECT_EQ(before.place_s, from_start.place_s);
+  EXPECT_EQ(before.trajectory.duration_s(), from_start.trajectory.duration_s());
+  const Retimed behind = speed_up(whole, stop_s_, 1e9, limits_);
+  EXPECT_LE(behind.place_s, end);
+  expect_near(at(behind.trajectory, behind.trajectory.duration_s()),
+              {at(whole, end).q, all(0), all(0)});
+}
+
 TEST_F(RetimingTest, AMotionThatRestsStaysWhereItIs) {
   const Trajectory whole = way();
   const Retimed stop = brake(whole, stop_s_, limits_);

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace armature {
 namespace {
 
@@ -20,17 +22,40 @@ std::string defect(const JointSegment& segment, Eigen::Index dof) {
   for (std::size_t i = 1; i < segment.s.size(); ++i) {
     if (!(segment.s[i] > segment.s[i - 1])) return "has waypoints whose s does not ascend";
   }
+  const double first = segment.s.front(), last = segment.s.back();
+  if (!(std::abs(first) <= kNearest_s && std::abs(last - 1) <= kNearest_s)) {
+    return "has an s that does not go from 0 to 1";
+  }
   if (segment.duration_s && !(*segment.duration_s > 0)) return "lasts no time";
+  if (segment.duration_s && !std::isfinite(*segment.duration_s)) return "lasts for ever";
   return {};
+}
+
+bool moves(const JointSegment& segment) {
+  double way = 0;
+  for (std::size_t i = 1; i < segment.q.size(); ++i) {
+    way += (segment.q[i] - segment.q[i - 1]).cwiseAbs().maxCoeff();
+  }
+  return way > kStillWay;
+}
+
+/// The speeds by which segments are measured: the limits, none so much larger than the smallest one
+/// that what its joint goes alone counted for nothing. Without any limit all joints are as fast.
+JointVector paces(const JointVector& max_velocity) {
+  constexpr double kMostOfSlowest = 1e3;
+  const double slowest = max_velocity.minCoeff();
+  if (!std::isfinite(slowest)) return JointVector::Ones(max_velocity.size());
+  return max_velocity.cwiseMin(
+      JointVector::Constant(max_velocity.size(), kMostOfSlowest * slowest));
 }
 
 /// A measure of a segment's length that lets the speed be about even across vias: the time that the
 /// slowest joint needs at full speed.
-double length(const JointSegment& segment, const JointVector& max_velocity) {
+double length(const JointSegment& segment, const JointVector& pace) {
   double sum = 0;
   for (std::size_t i = 1; i < segment.q.size(); ++i) {
     const auto step = (segment.q[i] - segment.q[i - 1]).cwiseAbs();
-    sum += step.cwiseQuotient(max_velocity).maxCoeff();
+    sum += step.cwiseQuotient(pace).maxCoeff();
   }
   return sum;
 }
@@ -50,20 +75,21 @@ JointSegment divided(const JointSegment& line) {
 
 /// Segments [first, end) as one curve over s from 0 to 1.
 Leg joined(const TrajectoryRequest& request, std::size_t first, std::size_t end) {
+  const JointVector pace = paces(request.max_velocity);
   double total = 0;
   int moving = 0;
   for (std::size_t i = first; i < end; ++i) {
-    const double part = length(request.segments[i], request.max_velocity);
-    total += part;
-    moving += part > kStillWay ? 1 : 0;
+    if (!moves(request.segments[i])) continue;
+    total += length(request.segments[i], pace);
+    ++moving;
   }
   std::vector<double> s{0};
   std::vector<JointVector> q{request.segments[first].q.front()};
   double done = 0;
   for (std::size_t i = first; i < end && moving > 0; ++i) {
     const JointSegment& given = request.segments[i];
-    const double share = length(given, request.max_velocity) / total;
-    if (share * total <= kStillWay) continue;
+    if (!moves(given)) continue;
+    const double share = length(given, pace) / total;
     const JointSegment& segment = moving > 1 && given.q.size() == 2 ? divided(given) : given;
     const double low = segment.s.front(), span = segment.s.back() - low;
     for (std::size_t k = 1; k < segment.s.size(); ++k) {

@@ -116,7 +116,7 @@ const IkBranch* nearest_branch(const IkBranches& branches, const JointVector& ne
 
 bool turns_freely(const RobotModel& model, int i) {
   for (const ChainLink& link : model.chain()) {
-    if (link.independent != i) continue;
+    if (link.independent != i || link.ratio == 0) continue;  // 0: it is locked
     if (link.prismatic || link.ratio != std::round(link.ratio)) return false;
   }
   return true;

@@ -101,5 +101,22 @@ TEST(IkLinesWholeTurns, WhoReadsTheAnswerFindsThePostureAgain) {
   EXPECT_LT(again.residual.position_m, 1e-14);
 }
 
+TEST(IkLinesWholeTurns, AreFreeBehindALockedSlide) {
+  RobotParts parts = far_side_arm().parts();
+  Joint lift;
+  lift.name = "lift";
+  lift.type = Joint::Type::prismatic;
+  lift.locked = true;
+  parts.joints.insert(parts.joints.begin(), lift);
+  for (NamedFrame& frame : parts.frames) ++frame.parent_joint;
+  parts.home = Eigen::Vector3d{0.2, 3, 0};
+  const RobotModel lifted{parts};
+  ASSERT_EQ(lifted.dof(), 2);
+  EXPECT_TRUE(turns_freely(lifted, 0));
+  JointVector q = posture(-1.2, 0);
+  EXPECT_TRUE(unwind(lifted, posture(5, 0), q));
+  EXPECT_NEAR(q[0], kFullTurn - 1.2, 1e-12);
+}
+
 }  // namespace
 }  // namespace armature

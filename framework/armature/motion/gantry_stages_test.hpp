@@ -49,6 +49,7 @@ class GantryIk : public IkSolver, public Moody {
  public:
   mutable std::vector<std::optional<double>> told;
   IkStatus::Code beyond = IkStatus::Code::out_of_reach;
+  double beside_m = 0;  // of joint z, beside the goal
 
   std::optional<double> redundancy_of(const JointVector& q) const override { return q.sum(); }
   IkStatus solve(const IkGoal& goal, const JointVector&, IkBranches& out,
@@ -59,7 +60,7 @@ class GantryIk : public IkSolver, public Moody {
     const Eigen::Vector3d& p = goal.pose.position;
     IkBranch& branch = out.add();
     branch.label = "only";
-    branch.q = Eigen::Vector3d{p.z(), p.y(), p.x()};
+    branch.q = Eigen::Vector3d{p.z() + beside_m, p.y(), p.x()};
     branch.within_limits = p.cwiseAbs().maxCoeff() <= 2;
     if (branch.within_limits) return {};
     return {.code = beyond, .shortfall = p.cwiseAbs().maxCoeff() - 2, .detail = "gantry"};

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "armature/motion/missed_pose.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/kinematics/link_clearance.hpp"
 #include "armature/robot/trajectories/retiming.hpp"
@@ -38,6 +39,11 @@ ToolPose pose_at(const RobotModel& model, const JointVector& q, const ToolPose& 
 bool is_known(const PathSegment& segment, std::size_t sample) {
   return segment.space == PathSegment::Space::cartesian && sample == 0 &&
          segment.samples.front().s <= 0;
+}
+
+std::string name_of(const Path& path, std::size_t segment, std::size_t sample) {
+  return fmt::format("sample {} of {} of segment {}", sample + 1, path[segment].samples.size(),
+                     segment + 1);
 }
 
 Path straight_to(const ToolPose& pose) {
@@ -80,6 +86,10 @@ std::string take_joints(const RobotModel& model, const PathSegment& segment,
     if (model.is_revolute(i) && !(turn < std::numbers::pi)) {
       return fmt::format("a joint turns by {:.3f} rad at once: name a sample between", turn);
     }
+  }
+  const ReasonText missed = missed_by(model, *sample.joints, sample.pose);
+  if (!missed.empty()) {
+    return fmt::format("its joints take the tool past its pose by {}", missed.view());
   }
   branches.clear();
   branches.add() = branch_at(model, {.pose = sample.pose}, *sample.joints, "of the path");
@@ -246,6 +256,10 @@ PlanResult GoalPlanner::timed(const Path& path, const MotionGoal& goal, const Jo
   auto joint_path = this->joint_path(path, from.q);
   if (!joint_path) return tl::unexpected{joint_path.error()};
   plan.joint_path = std::move(*joint_path);
+  const ReasonText missed = missed_by(model_, plan.joint_path.back().q.back(), goal.pose);
+  if (!missed.empty()) {
+    return fail("path", fmt::format("the path's end misses the goal by {}", missed.view()));
+  }
   auto trajectory = guarded([&] {
     return stages_.trajectory->plan({.goal_id = goal.id,
                                      .start = start,
@@ -311,12 +325,9 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
     for (std::size_t i = 0; i < samples.size(); ++i) {
       if (is_known(path[k], i)) continue;
       IkBranches& branches = waypoints_.emplace_back();
-      const auto name = [&] {
-        return fmt::format("sample {} of {} of segment {}", i + 1, samples.size(), k + 1);
-      };
       if (samples[i].joints) {
         const std::string wrong = take_joints(model_, path[k], samples[i], seed, branches);
-        if (!wrong.empty()) return fail("path", name() + ": " + wrong);
+        if (!wrong.empty()) return fail("path", name_of(path, k, i) + ": " + wrong);
         seed = *samples[i].joints;
         continue;
       }
@@ -326,7 +337,7 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
       const IkBranch* next =
           status && reaches(*status) ? nearest_branch(branches, seed, model_) : nullptr;
       if (!next) {
-        return fail("ik", name() + ": " + reason_of(status));
+        return fail("ik", name_of(path, k, i) + ": " + reason_of(status));
       }
       seed = next->q;
     }
@@ -345,7 +356,8 @@ tl::expected<std::vector<JointSegment>, PlanFailure> GoalPlanner::joint_path(
   std::vector<JointSegment> segments;
   JointVector last = start;
   std::size_t next = 0;
-  for (const PathSegment& segment : path) {
+  for (std::size_t k = 0; k < path.size(); ++k) {
+    const PathSegment& segment = path[k];
     JointSegment& joint = segments.emplace_back(JointSegment{.s = {0.0},
                                                              .q = {last},
                                                              .stop_at_end = segment.stop_at_end,
@@ -357,6 +369,11 @@ tl::expected<std::vector<JointSegment>, PlanFailure> GoalPlanner::joint_path(
       }
       joint.s.push_back(segment.samples[i].s);
       joint.q.push_back((*chosen)[next++]);
+      const ReasonText missed = missed_by(model_, joint.q.back(), segment.samples[i].pose);
+      if (!missed.empty()) {
+        return fail("ik", fmt::format("{}: the branch that was taken misses its pose by {}",
+                                      name_of(path, k, i), missed.view()));
+      }
     }
     last = joint.q.back();
   }

@@ -257,16 +257,17 @@ TEST(GoalPlanner, AsksForANeedlesDepthOnlyWhereTheArmHasAFreedomMoreThanThePoseT
             "the path states a length, such as a needle's depth, and the solver holds none");
 }
 
-/// A detour by joint positions of its own.
+/// A detour by joint positions of its own, which take the tool to `there`.
 class JointsPath final : public PathPlanner {
  public:
   JointVector detour;
+  ToolPose there;
   PathSegment::Space space = PathSegment::Space::joint;
   mutable std::optional<JointVector> started_at;
 
   Expected<Path> plan(const PathRequest& request) const override {
     started_at = request.start_joints;
-    const PathSample by_joints{.s = 1, .pose = request.goal, .redundancy = {}, .joints = detour};
+    const PathSample by_joints{.s = 1, .pose = there, .redundancy = {}, .joints = detour};
     return Path{{.space = space, .samples = {by_joints}},
                 {.space = PathSegment::Space::joint, .samples = {{1, request.goal}}}};
   }
@@ -278,6 +279,7 @@ TEST(GoalPlanner, GoesThroughTheJointsThatAPathNamesWithoutSolvingForThem) {
   GoalPlanner planner{
       gantry.model, {path, gantry.ik, gantry.select, gantry.trajectory}, gantry.limits, {}};
   path.detour = Eigen::Vector3d{0.1, 0.2, 0.3};
+  path.there = goal_at(0, 0.3, 0.2, 0.1).pose;
   const auto plan = planner.plan(goal_at(1, 0.5, 0, 0), rest_at(0, 0, 0.1), kStart);
   ASSERT_TRUE(plan) << plan.error().reason;
   ASSERT_EQ(plan->joint_path.size(), 2u);
@@ -300,8 +302,55 @@ TEST(GoalPlanner, SaysWhatIsWrongWithTheJointsThatAPathNames) {
   EXPECT_EQ(reason(JointVector::Zero(2)), where + "2 joints, and the robot has 3");
   EXPECT_EQ(reason(JointVector::Constant(3, NAN)), where + "its joints are not finite");
   EXPECT_EQ(reason(JointVector::Constant(3, 1e3)), where + "its joints are beyond their limits");
+  path.there = goal_at(0, 0.05, 0, 0).pose;
+  EXPECT_EQ(reason(JointVector::Zero(3)),
+            where + "its joints take the tool past its pose by 50.0000 mm and 0.0000 degrees");
+  path.there = {.position = {0, 0, 0}, .orientation = Direction{Eigen::Vector3d::UnitY()}};
+  EXPECT_EQ(reason(JointVector::Zero(3)),
+            where + "its joints take the tool past its pose by 0.0000 mm and 90.0000 degrees");
   path.space = PathSegment::Space::cartesian;
   EXPECT_EQ(reason(JointVector::Zero(3)), where + "a cartesian segment names joints");
+}
+
+TEST(GoalPlanner, RefusesABranchThatTakesTheToolPastItsPose) {
+  Gantry gantry;
+  gantry.ik.beside_m = 0.02;
+  const auto plan = gantry.planner().plan(goal_at(1, 0.5, 0, 0), rest_at(0, 0, 0), kStart);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().stage, "ik");
+  EXPECT_EQ(plan.error().reason,
+            "sample 1 of 1 of segment 1: the branch that was taken misses its pose by 20.0000 mm "
+            "and 0.0000 degrees");
+}
+
+/// A straight way to 50 mm beside the goal.
+class BesidePath final : public PathPlanner {
+ public:
+  Expected<Path> plan(const PathRequest& request) const override {
+    ToolPose end = request.goal;
+    end.position.z() += 0.05;
+    return Path{{.space = PathSegment::Space::joint, .samples = {{1, end}}}};
+  }
+};
+
+TEST(GoalPlanner, RefusesAPathThatEndsBesideTheGoal) {
+  const Gantry gantry;
+  const BesidePath path;
+  const auto planned = [&](bool path_only) {
+    GoalPlanner planner{gantry.model,
+                        {path, gantry.ik, gantry.select, gantry.trajectory},
+                        gantry.limits,
+                        {.path_only = path_only}};
+    return planner.plan(goal_at(1, 0.5, 0, 0), rest_at(0, 0, 0), kStart);
+  };
+  const std::string reason = "the path's end misses the goal by 50.0000 mm and 0.0000 degrees";
+  const auto refused = planned(true);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().stage, "path");
+  EXPECT_EQ(refused.error().reason, reason);
+  const auto straight = planned(false);
+  ASSERT_TRUE(straight) << straight.error().reason;
+  EXPECT_EQ(straight->joint_path.back().q.back(), (Eigen::Vector3d{0, 0, 0.5}));
 }
 
 TEST(GoalPlanner, RefusesJointsOfAPathThatTurnByHalfATurnAtOnce) {

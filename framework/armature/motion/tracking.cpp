@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 
+#include "armature/motion/missed_pose.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/values/guarded.hpp"
 
@@ -95,7 +96,8 @@ Tracker::Tracker(const RobotModel& model, const MotionLimits& limits, Slot<const
   if (options.pivot) pivot_.emplace(model, *options.pivot);
 }
 
-/// The branch nearest to `near`; false, and the defect says why, when none is within limits.
+/// The branch nearest to `near`; false, and the defect says why, when none is within limits or it
+/// misses the pose.
 bool Tracker::solve(const ToolPose& pose, const JointVector& near, JointVector& q) {
   const IkGoal goal{.pose = pose};
   const auto status = guarded([&] {
@@ -106,7 +108,11 @@ bool Tracker::solve(const ToolPose& pose, const JointVector& near, JointVector& 
   if (const IkBranch* chosen = reached ? nearest_branch(branches_, near, model_) : nullptr) {
     q = chosen->q;
     unwind(model_, near, q);
-    return true;
+    const ReasonText missed = missed_by(model_, q, pose);
+    if (missed.empty()) return true;
+    defect_ = ReasonText::format("the goal: the branch '{}' misses it by {}", chosen->label,
+                                 missed.view());
+    return false;
   }
   const ReasonText why = status ? reason_of(*status) : ReasonText{status.error().text};
   defect_ = ReasonText::format("the goal: {}", why.view());

@@ -257,6 +257,17 @@ TEST(Tracking, RefusesATargetOutOfReach) {
   EXPECT_EQ(plan.failure.stage, "ik");
 }
 
+TEST(Tracking, RefusesABranchThatTakesTheToolPastItsTarget) {
+  Gantry gantry;
+  gantry.ik.beside_m = 0.02;
+  const auto plan =
+      track(gantry.tracker(kHorizon), goal_at(1, 0.5, 0, 0), rest_at(0, 0, 0), Time{0});
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.failure.stage, "ik");
+  EXPECT_EQ(plan.failure.reason.view(),
+            "the goal: the branch 'only' misses it by 20.0000 mm and 0.0000 degrees");
+}
+
 TEST(Tracking, ATargetThatTheLimitsCannotMeetBeforeItLeavesTheReachFailsByTheLimits) {
   const Gantry gantry;
   MotionGoal goal = goal_at(1, 1.9, 0, 0);  // 2 m is the end of the reach

@@ -30,7 +30,8 @@ Expected<JointVector> rates_or_rest(const RobotModel& robot, std::span<const dou
   return rates;
 }
 
-/// Limits of all joints as limits of the independent ones: a joint that follows binds its leader.
+/// Limits of all joints as limits of the independent ones: a joint that follows binds its leader,
+/// one that is locked binds nothing.
 Expected<JointVector> limits_or(const JointVector& robots_own, const RobotModel& robot,
                                 std::span<const double> all, std::string_view what) {
   if (all.empty()) return robots_own;
@@ -40,6 +41,7 @@ Expected<JointVector> limits_or(const JointVector& robots_own, const RobotModel&
   }
   JointVector limits = robots_own;
   for (std::size_t j = 0; j < all.size(); ++j) {
+    if (robot.joints()[j].locked) continue;
     const ChainLink& link = robot.chain()[j];
     const double gear = std::abs(link.ratio);
     const double own = robots_own[link.independent] * gear;

@@ -215,5 +215,41 @@ TEST_F(TrajectoryHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAns
   EXPECT_TRUE(ask(request(2)).valid_());
 }
 
+/// One joint that turns, on a column that is locked.
+class LiftedTrajectoryHostTest
+    : public RequestHostTest<msg::TrajectoryRequest, msg::TrajectoryResponse> {
+ protected:
+  LiftedTrajectoryHostTest()
+      : RequestHostTest{
+            plugins(),
+            {.component = "{plugin: trajectory/two_seconds}",
+             .robot = config::parse_text(
+                 "armature_robot: 1\nname: lifted\njoints:\n"
+                 "  - {name: column, type: prismatic, locked: true, limits_mm: [0, 800], "
+                 "velocity_m_s: 0.05, acceleration_m_s2: 0.1}\n"
+                 "  - {name: turn, limits_deg: [-90, 90], velocity_rad_s: 2, "
+                 "acceleration_rad_s2: 8}\n"
+                 "frames: {tool: {parent: turn}}\nhome: [0.1, 0]\n",
+                 "lifted.yaml"),
+             .rig = {}}} {}
+};
+
+TEST_F(LiftedTrajectoryHostTest, LimitsOfAJointThatIsLockedBindNothing) {
+  msg::TrajectoryRequest limited;
+  write_header(limited.header_(), Time{1'000'000'000}, kBaseFrame);
+  limited.request_id_(1);
+  limited.segments_().resize(1);
+  limited.segments_()[0].s_({0, 1});
+  limited.segments_()[0].waypoints_() = {at({0.1, 0}), at({0.1, 0.5})};
+  limited.segments_()[0].stop_at_end_(true);
+  limited.max_velocity_({0.05, 1});
+  limited.max_acceleration_({0.1, 4});
+  limited.max_jerk_({1, 50});
+  EXPECT_EQ(ask(limited).reason_(), "");
+  EXPECT_EQ(TwoSeconds::asked.max_velocity, joint_vector({1}));
+  EXPECT_EQ(TwoSeconds::asked.max_acceleration, joint_vector({4}));
+  EXPECT_EQ(TwoSeconds::asked.max_jerk, joint_vector({50}));
+}
+
 }  // namespace
 }  // namespace armature::trajectory_host

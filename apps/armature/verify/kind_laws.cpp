@@ -124,7 +124,8 @@ std::unique_ptr<PluginLaws> laws_of_path(const VerifiedPlugin& verified) {
   return laws_with<PathPlanner>(verified, path_laws(), [](const Maker& maker, auto planner) {
     return PathSubject{.name = maker.plugin().id,
                        .planner = planner,
-                       .along_a_line = provides(maker.plugin(), "along_a_line")};
+                       .along_a_line = provides(maker.plugin(), "along_a_line"),
+                       .model = maker.model()};
   });
 }
 std::unique_ptr<PluginLaws> laws_of_select(const VerifiedPlugin& verified) {

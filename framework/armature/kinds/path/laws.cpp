@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "armature/kinds/path/random_poses.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature {
 namespace {
@@ -64,9 +65,32 @@ PathRequest towards_focus(const PathSubject& subject, ToolPose start, const Tool
   return {.start = start, .goal = goal, .focus = kFocus};
 }
 
+/// The joints that a path names take the tool to where it says.
+void check_joints(const RobotModel& model, const Path& path, LawCheck& check) {
+  constexpr double kMayMiss = 1e-6;  // [m] and [rad]; motion refuses more
+  const Eigen::Vector3d axis = model.pointing_axis().value_or(Eigen::Vector3d::UnitX());
+  for (const PathSegment& segment : path) {
+    for (const PathSample& sample : segment.samples) {
+      if (!sample.joints) continue;
+      if (!check.that(sample.joints->size() == model.dof(),
+                      "joints that a sample names are as many as the robot has")) {
+        return;
+      }
+      const PoseResidual miss =
+          residual(forward_kinematics(model, *sample.joints), axis, sample.pose);
+      check.at_most(miss.position_m, kMayMiss,
+                    "from where a sample's joints take the tool to its pose [m]");
+      check.at_most(miss.angle_rad, kMayMiss,
+                    "from how a sample's joints turn the tool to its pose [rad]");
+    }
+  }
+}
+
 void check_planned(const PathSubject& subject, const PathRequest& request, LawCheck& check) {
   const auto path = subject.planner->plan(request);
-  if (check.answered(path, "this request")) check_sound(*path, request, check);
+  if (!check.answered(path, "this request")) return;
+  check_sound(*path, request, check);
+  if (subject.model) check_joints(*subject.model, *path, check);
 }
 
 void keeps_away(const PathSubject& subject, LawCheck& check) {

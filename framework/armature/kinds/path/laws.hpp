@@ -8,6 +8,7 @@
 
 #include "armature/kinds/path/path.hpp"
 #include "armature/laws/law.hpp"
+#include "armature/robot/model/robot_model.hpp"
 
 // The laws that every `path` plugin keeps.
 namespace armature ARMATURE_EXPORT {
@@ -18,6 +19,8 @@ struct PathSubject {
   /// A goal's axis is a line through the point to look at, and the way along it from before that
   /// point: it is asked for nothing else.
   bool along_a_line = false;
+  /// Whose joints a path may name; none: joints are not looked at.
+  std::shared_ptr<const RobotModel> model = nullptr;
 
   friend void PrintTo(const PathSubject& subject, std::ostream* out) { *out << subject.name; }
 };

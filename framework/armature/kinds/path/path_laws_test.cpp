@@ -86,6 +86,23 @@ TEST(PathLawsThemselves, FindAPathThatIsNotSound) {
   }
 }
 
+TEST(PathLawsThemselves, FindJointsThatTakeTheToolElsewhereThanItsPose) {
+  const auto model = std::make_shared<const RobotModel>(
+      load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1.yaml"));
+  const auto at_zero = [&](PathSegment& segment) {
+    segment.space = PathSegment::Space::joint;
+    segment.samples.erase(segment.samples.begin());
+    segment.samples.back().joints = JointVector::Zero(model->dof());
+  };
+  EXPECT_THAT(broken({.name = "at zero",
+                      .planner = std::make_shared<Straight>(at_zero),
+                      .along_a_line = false,
+                      .model = model}),
+              ElementsAre("StartsAtTheStartGoesWithoutAGapAndEndsAtTheGoal",
+                          "WithoutAPointToLookAtItPlansDirectionsAndRotationsOrRefusesAll",
+                          "AStartThatIsTheGoalIsAPathAllTheSame"));
+}
+
 TEST(PathLawsThemselves, FindAPlannerThatRemembers) {
   int calls = 0;
   const auto remembers = [&calls](PathSegment& segment) {

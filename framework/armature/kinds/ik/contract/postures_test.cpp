@@ -10,6 +10,7 @@
 #include <set>
 
 #include "armature/kinds/ik/contract/probe.hpp"
+#include "armature/kinds/ik/contract/search.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 
 namespace armature::ik_contract {
@@ -138,6 +139,14 @@ TEST_F(Postures, UprightOnesPointUpOrDownAsAsked) {
       EXPECT_NEAR(forward_kinematics(model, q).linear().col(2).z(), up, 1e-12) << q.transpose();
     }
   }
+}
+
+TEST(TurnsUntilSame, DoNotDependOnALockedSlide) {
+  RobotParts parts = plain_arm().parts();
+  parts.joints[1].type = Joint::Type::prismatic;
+  parts.joints[1].locked = true;
+  parts.home = JointVector::Zero(6);
+  EXPECT_EQ(turns_until_same(RobotModel{parts}, 0), 1);
 }
 
 }  // namespace

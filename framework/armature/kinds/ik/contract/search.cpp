@@ -15,7 +15,7 @@ int turns_until_same(const RobotModel& model, int i) {
   for (int turns = 1; turns <= kMax; ++turns) {
     const bool same = std::ranges::all_of(model.chain(), [&](const ChainLink& link) {
       const double way = turns * link.ratio;
-      return link.independent != i ||
+      return link.independent != i || link.ratio == 0 ||  // 0: it is locked
              (!link.prismatic && std::abs(way - std::round(way)) <= kWhole);
     });
     if (same) return turns;

@@ -6,7 +6,8 @@
 #include "armature/robot/model/joint_vector.hpp"
 #include "armature/robot/model/robot_model.hpp"
 
-namespace armature::ik_contract {
+namespace armature {
+namespace ik_contract ARMATURE_EXPORT {
 
 /// Where a joint is looked for.
 struct Range {
@@ -42,4 +43,5 @@ double golden_section(double lower, double upper, Function f) {
   return at_a <= at_b ? a : b;
 }
 
-}  // namespace armature::ik_contract
+}  // namespace ik_contract
+}  // namespace armature

@@ -251,7 +251,8 @@ void Motion::show_health(Time now) {
   // That an arm has not spoken yet is worth a word only when it takes long.
   if (!first_step_) first_step_ = now;
   if (!execution_.reference().started() && now - *first_step_ < kTimeout) return;
-  const ReasonText& standing = execution_.trouble().empty() ? waits_for_ : execution_.trouble();
+  const ReasonText& mild = stops_.unknown_word().empty() ? waits_for_ : stops_.unknown_word();
+  const ReasonText& standing = execution_.trouble().empty() ? mild : execution_.trouble();
   const ReasonText& trouble = bad_measurement_.empty() ? standing : bad_measurement_;
   if (trouble == shown_trouble_) return;
   shown_trouble_ = trouble;

@@ -139,6 +139,55 @@ TEST_F(MotionStops, AnArmThatIsNotEnabledAnyMoreWasStopped) {
   }
 }
 
+TEST_F(MotionStops, AWordIsTheSameHoweverItsPartsAreJoinedAndWhateverIsAroundIt) {
+  for (const std::string stop :
+       {"EMERGENCY STOP", "emergency_stop ", "Emergency-Stop", "\temergency_stop\r\n"}) {
+    MotionHarness bench;
+    bench.motion().send("operating_state", word(stop));
+    bench.run(100.1);
+    EXPECT_EQ(bench.motion().status().reason,
+              "stopped until it is rearmed: the arm says emergency_stop")
+        << "'" << stop << "'";
+  }
+}
+
+constexpr const char* kNoneOf =
+    "which is none of ENABLED, HOLDING, DISABLED, PAUSED, FAULT, PROTECTIVE_STOP, EMERGENCY_STOP "
+    "and OVERRIDE";
+
+TEST_F(MotionStops, AWordThatNobodyKnowsIsAStopOfAnArmThatWasEnabled) {
+  begin_moving();
+  bench_.motion().send("operating_state", word("Enabled"));
+  bench_.motion().send("operating_state", word("E-STOP"));
+  bench_.run(bench_.now_s() + 0.02);
+  EXPECT_EQ(reason(),
+            std::string{"stopped until it is rearmed: the arm says 'E-STOP', "} + kNoneOf);
+  expect_rest();
+  bench_.motion().send("rearm", flag(true));
+  bench_.run(bench_.now_s() + 0.2);
+  EXPECT_EQ(bench_.motion().status().state, StatusReporter::State::degraded)
+      << "the cause is still there";
+  bench_.motion().send("operating_state", word("ENABLED"));
+  bench_.motion().send("rearm", flag(true));
+  bench_.run(bench_.now_s() + 0.2);
+  bench_.motion().send("rearm", flag(true));
+  bench_.run(bench_.now_s() + 0.2);
+  EXPECT_EQ(bench_.motion().status().state, StatusReporter::State::ok);
+}
+
+TEST_F(MotionStops, AWordThatNobodyKnowsIsToldOfAnArmThatWasNeverEnabled) {
+  begin_moving();
+  bench_.motion().send("operating_state", word("READY"));
+  bench_.run(bench_.now_s() + 0.02);
+  EXPECT_EQ(bench_.motion().status().state, StatusReporter::State::degraded);
+  EXPECT_EQ(reason(), std::string{"the arm says 'READY', "} + kNoneOf);
+  bench_.run(104);
+  EXPECT_EQ(bench_.history().back(), "1 done");
+  bench_.motion().send("operating_state", word("HOLDING"));
+  bench_.run(104.1);
+  EXPECT_EQ(bench_.motion().status().state, StatusReporter::State::ok);
+}
+
 TEST_F(MotionStops, AGoalOfTheStepThatRearmsWasGivenWhileItWasStopped) {
   begin_moving();
   bench_.motion().send("stop", flag(true));

@@ -4,22 +4,34 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cstddef>
 
 namespace armature {
 namespace {
 
 bool is_true(const msg::Bool& message) { return message.data_(); }
 
-// Words of an arm's operating_state that are a stop, and those of CRTK that are one when it was
-// enabled before.
+// Words of an arm's operating_state: those that are a stop, those of CRTK that are one when it was
+// enabled before, and those that are none.
 constexpr std::array<std::string_view, 3> kStops{"protective_stop", "emergency_stop", "override"};
 constexpr std::array<std::string_view, 3> kNotEnabled{"disabled", "paused", "fault"};
 constexpr std::string_view kEnabled = "enabled";
+constexpr std::string_view kHolding = "holding";
 
-/// Drivers write such words small or large.
-bool is_same_word(std::string_view a, std::string_view b) {
-  return std::ranges::equal(
-      a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+constexpr std::size_t kToldOfAWord = 40;  // letters
+
+std::string_view trimmed(std::string_view word) {
+  const auto is_blank = [](unsigned char c) { return std::isspace(c) != 0; };
+  while (!word.empty() && is_blank(word.front())) word.remove_prefix(1);
+  while (!word.empty() && is_blank(word.back())) word.remove_suffix(1);
+  return word;
+}
+
+/// Drivers write such words small or large, "emergency-stop" or "Emergency Stop".
+bool is_same_word(std::string_view word, std::string_view said) {
+  return std::ranges::equal(word, trimmed(said), [](unsigned char a, unsigned char b) {
+    return a == (b == '-' || b == ' ' ? '_' : std::tolower(b));
+  });
 }
 
 /// The one of `words` that it is, or empty.
@@ -62,28 +74,39 @@ ReasonText StopInputs::missing(const Enable& enable, Time now) const {
   return enable.holds ? ReasonText{} : ReasonText{enable.released};
 }
 
-std::string_view StopInputs::stop_word(std::string_view state) {
-  was_enabled_ = was_enabled_ || is_same_word(state, kEnabled);
-  const std::string_view stop = find_word(kStops, state);
-  return stop.empty() && was_enabled_ ? find_word(kNotEnabled, state) : stop;
+ReasonText StopInputs::stop_of(std::string_view state) {
+  unknown_word_.clear();
+  const bool is_enabled = is_same_word(kEnabled, state);
+  was_enabled_ = was_enabled_ || is_enabled;
+  if (is_enabled || is_same_word(kHolding, state)) return {};
+  const std::string_view stop = find_word(kStops, state), lost = find_word(kNotEnabled, state);
+  if (!stop.empty()) return ReasonText::format("the arm says {}", stop);
+  if (lost.empty()) {
+    unknown_word_ = ReasonText::format(
+        "the arm says '{}', which is none of ENABLED, HOLDING, DISABLED, PAUSED, FAULT, "
+        "PROTECTIVE_STOP, EMERGENCY_STOP and OVERRIDE",
+        trimmed(state).substr(0, kToldOfAWord));
+    return was_enabled_ ? unknown_word_ : ReasonText{};
+  }
+  return was_enabled_ ? ReasonText::format("the arm says {}", lost) : ReasonText{};
 }
 
-std::string_view StopInputs::hear_arm() {
-  std::string_view said = stop_word_;
+ReasonText StopInputs::hear_arm() {
+  ReasonText said = stop_of_arm_;
   for (std::size_t i = 0; i < operating_state_.size(); ++i) {
-    stop_word_ = stop_word(operating_state_[i].data_());
-    if (said.empty()) said = stop_word_;
+    stop_of_arm_ = stop_of(operating_state_[i].data_());
+    if (said.empty()) said = stop_of_arm_;
   }
-  return operating_state_.size() == 0 ? stop_word_ : said;
+  return operating_state_.size() == 0 ? stop_of_arm_ : said;
 }
 
 StopCause StopInputs::cause(Time now) {
   hear(hold_to_run_);
   hear(operator_present_);
-  const std::string_view arm = hear_arm();
+  const ReasonText arm = hear_arm();
   const bool by_arm = !arm.empty();
   if (stop_.size() > 0) return {.why = "a stop was asked for on the topic /stop", .by_arm = by_arm};
-  if (by_arm) return {.why = ReasonText::format("the arm says {}", arm), .by_arm = true};
+  if (by_arm) return {.why = arm, .by_arm = true};
   ReasonText why = missing(hold_to_run_, now);
   if (why.empty()) why = missing(operator_present_, now);
   return {.why = why, .wants_operator = !why.empty()};

@@ -29,6 +29,8 @@ class StopInputs {
   StopCause cause(Time now);
   /// Whether this activation brought a rearm. It counts only when there is no cause to stop.
   bool rearmed() const;
+  /// What the arm said last when that is no word of an operating_state; empty: it is one.
+  const ReasonText& unknown_word() const { return unknown_word_; }
 
  private:
   /// An input that must be true and not silent wherever a component writes it.
@@ -41,15 +43,16 @@ class StopInputs {
   };
   static void hear(Enable& enable);
   ReasonText missing(const Enable& enable, Time now) const;
-  /// The arm's word for a stop, or empty.
-  std::string_view hear_arm();
-  std::string_view stop_word(std::string_view state);
+  /// Why what the arm says is a stop, or empty.
+  ReasonText hear_arm();
+  ReasonText stop_of(std::string_view state);
 
   Input<msg::Bool> stop_, rearm_;
   Enable hold_to_run_, operator_present_;
   Input<msg::String> operating_state_;
-  std::string_view stop_word_;  // that the arm said last, if it was one for a stop
-  bool was_enabled_ = false;    // the arm, at some time
+  ReasonText stop_of_arm_;    // what the arm said last, if it was a stop
+  ReasonText unknown_word_;   // the same, if it was none of the words
+  bool was_enabled_ = false;  // the arm, at some time
   Duration timeout_;
 };
 

@@ -201,7 +201,9 @@ PlanResult GoalPlanner::plan(const MotionGoal& goal, const JointState& from, Tim
   if (options_.path_only || goal.stepwise) return first;
   PlanResult straight =
       moving ? after_stop(goal, from, start, true) : attempt(goal, from, start, true);
-  return straight ? std::move(straight) : std::move(first);
+  if (!straight) return first;
+  straight->straight_because = first.error().stage + ": " + first.error().reason;
+  return straight;
 }
 
 PlanResult GoalPlanner::after_stop(const MotionGoal& goal, const JointState& from, Time start,

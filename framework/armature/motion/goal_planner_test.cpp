@@ -351,6 +351,7 @@ TEST(GoalPlanner, RefusesAPathThatEndsBesideTheGoal) {
   const auto straight = planned(false);
   ASSERT_TRUE(straight) << straight.error().reason;
   EXPECT_EQ(straight->joint_path.back().q.back(), (Eigen::Vector3d{0, 0, 0.5}));
+  EXPECT_EQ(straight->straight_because, "path: " + reason);
 }
 
 TEST(GoalPlanner, RefusesJointsOfAPathThatTurnByHalfATurnAtOnce) {
@@ -469,6 +470,11 @@ TEST(GoalPlanner, GoesStraightInJointSpaceWhenThePathPluginThrows) {
   auto plan = gantry.planner().plan(goal_at(1, 1, 1, 1), rest_at(0, 0, 0), kStart);
   ASSERT_TRUE(plan) << plan.error().reason;
   EXPECT_EQ(plan->path.front().space, PathSegment::Space::joint);
+  EXPECT_EQ(plan->straight_because, "path: the plugin threw: no more of this");
+  gantry.path.throws = false;
+  plan = gantry.planner().plan(goal_at(2, 1, 1, 1), rest_at(0, 0, 0), kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  EXPECT_EQ(plan->straight_because, "");
 }
 
 }  // namespace

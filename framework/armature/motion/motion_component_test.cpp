@@ -86,6 +86,18 @@ TEST_F(MotionComponentTest, TellsTheStoryAndThePlanOfAGoal) {
   EXPECT_TRUE(planner_.take<msg::ToolPath>("path").empty()) << "a plan is told once";
 }
 
+TEST_F(MotionComponentTest, TellsOnceWhyItGoesStraightAndNotAlongThePath) {
+  run(100.1);
+  give(goal(1, {1.75, 0, 0}));
+  run(105);
+  give(goal(2, {1.6, 0, 0}));
+  run(108);
+  EXPECT_EQ(history().back(), "2 done");
+  EXPECT_EQ(
+      planner_.lines(),
+      (std::vector<std::string>{"goal 1: path: x beyond 1.5 m; straight in joint space instead"}));
+}
+
 TEST_F(MotionComponentTest, TellsTheCurrentGoalTenTimesASecond) {
   run(100.1);
   give(goal(1, {0.5, 0.4, 0.3}));

@@ -18,6 +18,9 @@ struct Plan {
   Path path;
   std::vector<JointSegment> joint_path;
   Trajectory trajectory;
+  /// Why the way goes straight in joint space and not along the path plugin's path: "path: the
+  /// plugin threw: ...". Empty: it goes along that.
+  std::string straight_because = {};
 };
 
 /// Which stage refused, and why.

@@ -73,7 +73,16 @@ WayLegResult MotionPlanner::plan(const PlanRequest& request, const MotionGoal& g
   PlanResult plan = planner_.plan(goal, request.from, request.start);
   if (!plan) return tl::unexpected{plan.error()};
   planned_ = std::move(*plan);
+  tell_straight(*planned_, goal.id);
   return ways_.begin(*planned_, goal.stepwise);
+}
+
+/// Once for each reason.
+void MotionPlanner::tell_straight(const Plan& plan, std::uint64_t goal_id) {
+  const std::string& why = plan.straight_because;
+  if (why.empty() || told_.find(why)) return;
+  told_.put(why, {});
+  log(fmt::format("goal {}: {}; straight in joint space instead", goal_id, why));
 }
 
 WayLegResult MotionPlanner::change_way(const PlanRequest& request, const MotionGoal& goal) {

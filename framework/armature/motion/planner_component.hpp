@@ -3,6 +3,8 @@
 
 #include <deque>
 #include <optional>
+#include <string>
+#include <variant>
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/motion/goal_planner.hpp"
@@ -10,6 +12,7 @@
 #include "armature/motion/way.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
+#include "armature/values/recent.hpp"
 #include "motion_ports.hpp"
 
 namespace armature {
@@ -26,6 +29,7 @@ class MotionPlanner final : public Component {
   const msg::MotionGoal* find(std::uint64_t goal_id) const;
   void answer(const PlanRequest& request, const msg::MotionGoal& goal);
   WayLegResult plan(const PlanRequest& request, const MotionGoal& goal);
+  void tell_straight(const Plan& plan, std::uint64_t goal_id);
   WayLegResult change_way(const PlanRequest& request, const MotionGoal& goal);
   void publish_path(const Plan& plan);
   void publish_trajectory(const Trajectory& trajectory);
@@ -34,9 +38,10 @@ class MotionPlanner final : public Component {
   motion::PlannerPorts ports_;
   GoalPlanner planner_;
   Ways ways_;
-  std::optional<Plan> planned_;        // whose path is still to be told
-  std::deque<msg::MotionGoal> known_;  // newest last
-  std::optional<PlanRequest> wanted_;  // whose goal has not come yet
+  std::optional<Plan> planned_;               // whose path is still to be told
+  std::deque<msg::MotionGoal> known_;         // newest last
+  std::optional<PlanRequest> wanted_;         // whose goal has not come yet
+  Recent<std::string, std::monostate> told_;  // why ways go straight
 };
 
 }  // namespace armature

@@ -17,7 +17,6 @@ constexpr Duration kSettlesWithin = seconds(1.0);  // an arm that lags behind it
 constexpr Duration kTrailsFor = seconds(0.1);      // an instrument, before that counts
 constexpr Duration kTellsWithin = seconds(1.0);    // who has not told anything yet
 constexpr double kLongestGap_s = 0.1;              // between two poses of the hand
-constexpr int kBroken = -1;                        // the gap is longer, or time went back
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 ToolPose tool_pose_of(const Eigen::Isometry3d& base_T_tool) {
@@ -39,7 +38,7 @@ void Teleoperation::see(const ConsoleView& view, Time now) {
     case Phase::refused:
       return;
     default:
-      return follow_hand(view, filter_hand(view), now);
+      return follow_hand(view, filter_hand(view, now), now);
   }
 }
 
@@ -80,23 +79,41 @@ void Teleoperation::judge_alignment(const ConsoleView& view, Time now) {
   }
 }
 
-int Teleoperation::filter_hand(const ConsoleView& view) {
+int Teleoperation::filter_hand(const ConsoleView& view, Time now) {
+  jump_.clear();
   if (!view.leader_T_hand) {
     hand_.reset();
     return 0;
   }
   const double passed_s = to_seconds(view.hand_stamp - hand_stamp_);
-  hand_stamp_ = view.hand_stamp;
-  const bool unbroken = hand_ && passed_s >= 0 && passed_s <= kLongestGap_s;
-  if (!unbroken) {
-    const int broken = hand_ ? kBroken : 0;
+  if (hand_) jump_ = jump(*view.leader_T_hand, passed_s);
+  const bool begins = !hand_ || !jump_.empty();
+  const int periods = begins ? 0 : static_cast<int>(std::lround(passed_s / kHandPeriod_s));
+  if (!begins && periods == 0) return 0;
+  if (begins) {
     filter_.start(*view.leader_T_hand);
     hand_ = view.leader_T_hand;
-    return broken;
+  } else {
+    hand_ = filter_.step(*view.leader_T_hand, periods);
   }
-  const int periods = static_cast<int>(std::lround(passed_s / kHandPeriod_s));
-  if (periods > 0) hand_ = filter_.step(*view.leader_T_hand, periods);
+  told_ = *view.leader_T_hand;
+  hand_stamp_ = view.hand_stamp;
+  hand_went_on_ = now;
   return periods;
+}
+
+std::string Teleoperation::jump(const Eigen::Isometry3d& hand, double passed_s) const {
+  if (passed_s < 0 || passed_s > kLongestGap_s) return "the leader's stamps jump";
+  const double way_m = (hand.translation() - told_.translation()).norm();
+  const double turn_rad =
+      Eigen::Quaterniond{hand.linear()}.angularDistance(Eigen::Quaterniond{told_.linear()});
+  const double time_s = std::max(passed_s, kHandPeriod_s);
+  // Not a number is a jump.
+  const bool can_be = way_m <= parameters_.max_hand_speed * time_s &&
+                      turn_rad <= parameters_.max_hand_turn * time_s;
+  if (can_be) return "";
+  return fmt::format("the leader jumped by {:.1f} mm and {:.1f} degrees within {:.1f} ms",
+                     1e3 * way_m, kDegrees * turn_rad, 1e3 * time_s);
 }
 
 std::string Teleoperation::silent(const ConsoleView& view) {
@@ -106,22 +123,23 @@ std::string Teleoperation::silent(const ConsoleView& view) {
   return "";
 }
 
-std::string Teleoperation::missing(const ConsoleView& view) const {
+std::string Teleoperation::missing(const ConsoleView& view, Time now) const {
   if (std::string silent = this->silent(view); !silent.empty()) return silent;
   if (leader_goal_.state() != PursuedGoal::State::moving) {
     const std::string& why = leader_goal_.reason();
     return "the leader is not free for the hand" + (why.empty() ? "" : ": " + why);
   }
   if (!view.clutch_closed) return "the clutch tells nothing";
+  if (now - hand_went_on_ > seconds(kLongestGap_s)) return "the leader's stamps stand still";
   return "";
 }
 
 void Teleoperation::follow_hand(const ConsoleView& view, int periods, Time now) {
-  const std::string missing = this->missing(view);
+  const std::string missing = this->missing(view, now);
   if (phase_ != Phase::teleoperating) return await_clutch(view, missing, now);
   if (!missing.empty()) return stop_follower(Phase::held, missing);
   if (!*view.clutch_closed) return stop_follower(Phase::clutch_open, "");
-  if (periods == kBroken) return stop_follower(Phase::held, "the leader's stamps jump");
+  if (!jump_.empty()) return stop_follower(Phase::held, jump_);
   if (periods == 0) return;
   const FollowerTarget target = motion_.follow(*hand_, periods);
   follower_goal_ = MotionGoal{.mode = MotionMode::tracking,

@@ -76,12 +76,14 @@ class Teleoperation {
   /// What of the console and the arms is silent, or "".
   static std::string silent(const ConsoleView& view);
   /// What is missing for the follower to follow, or "".
-  std::string missing(const ConsoleView& view) const;
+  std::string missing(const ConsoleView& view, Time now) const;
   /// Of a follower that does not follow yet: nothing is wrong with what begins a moment later.
   void name_missing(const std::string& what, Time now);
-  /// For how many periods the hand has moved on: 0 when nothing new is told of it, -1 when it
-  /// cannot be said.
-  int filter_hand(const ConsoleView& view);
+  /// For how many periods the hand has moved on: 0 when nothing new is told of it, or when it
+  /// begins anew, as it does after a jump.
+  int filter_hand(const ConsoleView& view, Time now);
+  /// Why no hand comes there from where it was last told, `passed_s` later by its stamps, or "".
+  std::string jump(const Eigen::Isometry3d& hand, double passed_s) const;
   /// Not following: until the clutch is closed.
   void await_clutch(const ConsoleView& view, const std::string& missing, Time now);
   void engage(const ConsoleView& view);
@@ -92,8 +94,10 @@ class Teleoperation {
   Procedure procedure_;
   TremorFilter filter_;
   ScaledMotion motion_;
-  std::optional<Eigen::Isometry3d> hand_;  // filtered
-  Time hand_stamp_;
+  std::optional<Eigen::Isometry3d> hand_;                   // filtered
+  Eigen::Isometry3d told_ = Eigen::Isometry3d::Identity();  // the hand, not filtered
+  Time hand_stamp_, hand_went_on_;  // of told_; when it was seen that the stamp had gone on
+  std::string jump_;                // of the hand since the last step, or ""
   PursuedGoal leader_goal_;
   std::optional<MotionGoal> follower_goal_;
   std::uint64_t last_follower_id_ = 0, first_engaged_id_ = 0;

@@ -56,6 +56,88 @@ TEST_F(TeleoperationTest, StampsThatJumpHoldTheFollower) {
   }
 }
 
+TEST_F(TeleoperationTest, StampsThatStandStillHoldTheFollowerUntilTheyGoOn) {
+  close_clutch();
+  see(100);
+  const auto repeat = [&](int steps) {
+    for (int i = 0; i < steps; ++i) hand_is_late_ += seconds(0.001), see();
+  };
+  repeat(99);
+  EXPECT_EQ(task_.phase(), Phase::teleoperating) << "the longest gap is 0.1 s";
+  repeat(3);
+  EXPECT_EQ(task_.phase(), Phase::held);
+  EXPECT_EQ(task_.trouble(), "the leader's stamps stand still");
+  view_.clutch_closed = false;
+  repeat(1);
+  view_.clutch_closed = true;
+  repeat(100);
+  EXPECT_EQ(task_.phase(), Phase::held);
+  see(10);
+  EXPECT_EQ(task_.phase(), Phase::held) << "a closed clutch does not go on by itself";
+  view_.clutch_closed = false;
+  see();
+  view_.clutch_closed = true;
+  see();
+  EXPECT_EQ(task_.phase(), Phase::teleoperating);
+}
+
+TEST_F(TeleoperationTest, AHandWhoseStampsStandStillBeforeTheClutchClosesIsNamed) {
+  give_to_hand();
+  for (int i = 0; i < 1200; ++i) hand_is_late_ += seconds(0.001), see();
+  EXPECT_EQ(task_.trouble(), "the leader's stamps stand still");
+  view_.clutch_closed = true;
+  hand_is_late_ += seconds(0.001), see();
+  EXPECT_EQ(task_.phase(), Phase::aligned);
+}
+
+TEST_F(TeleoperationTest, APoseThatNoHandCanReachHoldsTheFollowerWithTheFigures) {
+  const auto held = [&](const Eigen::Isometry3d& jump, const std::string& reason) {
+    SCOPED_TRACE(reason);
+    *view_.leader_T_hand = *view_.leader_T_hand * jump;
+    see();
+    EXPECT_EQ(task_.phase(), Phase::held);
+    EXPECT_EQ(task_.trouble(), reason);
+    ASSERT_TRUE(follower_goal_);
+    EXPECT_EQ(follower_goal_->mode, MotionMode::hold);
+    see(10);
+    EXPECT_EQ(task_.phase(), Phase::held) << "a closed clutch does not go on by itself";
+    view_.clutch_closed = false;
+    see();
+    view_.clutch_closed = true;
+    see(200);
+    EXPECT_EQ(task_.phase(), Phase::teleoperating);
+    ASSERT_TRUE(follower_goal_);
+    EXPECT_LT((follower_goal_->pose.position - instrument_.translation()).norm(), 1e-9)
+        << "nothing of the jump comes later";
+  };
+  close_clutch();
+  see(100);
+  held(pose_of({0.04, 0, 0}), "the leader jumped by 40.0 mm and 0.0 degrees within 1.0 ms");
+  held(pose_of({0, 0, 0}, -0.2), "the leader jumped by 0.0 mm and 11.5 degrees within 1.0 ms");
+  held(pose_of({0, -0.0021, 0}), "the leader jumped by 2.1 mm and 0.0 degrees within 1.0 ms");
+}
+
+/// Ten times what the generated hand does: 0.1 m/s and 0.4 rad/s.
+TEST_F(TeleoperationTest, AHandThatIsFasterThanAnySurgeonsIsFollowedAsFarAsTheFollowerCan) {
+  close_clutch();
+  for (int i = 0; i < 200; ++i) {
+    *view_.leader_T_hand = *view_.leader_T_hand * pose_of({0.001, 0, 0}, 0.004);
+    see();
+    ASSERT_EQ(task_.phase(), Phase::teleoperating) << task_.trouble();
+  }
+}
+
+TEST_F(TeleoperationTest, AJumpWhileTheClutchIsOpenMovesNothingAndHoldsNothing) {
+  give_to_hand();
+  move_hand(40);
+  see();
+  view_.clutch_closed = true;
+  see(300);
+  EXPECT_EQ(task_.phase(), Phase::teleoperating);
+  ASSERT_TRUE(follower_goal_);
+  EXPECT_LT((follower_goal_->pose.position - instrument_.translation()).norm(), 1e-9);
+}
+
 TEST_F(TeleoperationTest, AnInstrumentThatTrailsIsTold) {
   close_clutch();
   const auto stay_behind = [&](int steps, double mm) {

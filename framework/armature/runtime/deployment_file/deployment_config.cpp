@@ -143,6 +143,22 @@ void read_run(const Node& section, DeploymentConfig& deployment, Problems& probl
   map.finish();
 }
 
+/// What the deployment writes itself is its own: `outside: true` of a plugin says then that anybody
+/// may give a command (a stop, an operator's word), and of everything else that the deployment need
+/// not write it.
+void close_written_inputs(DeploymentConfig& deployment) {
+  std::set<std::string_view> written;
+  for (const ComponentConfig& component : deployment.components) {
+    for (const PortBinding& output : component.outputs) written.insert(output.topic);
+  }
+  for (ComponentConfig& component : deployment.components) {
+    for (PortBinding& input : component.inputs) {
+      const bool is_command = input.spec.qos == QosProfile::command;
+      if (!is_command && written.contains(input.topic)) input.spec.outside = false;
+    }
+  }
+}
+
 /// Opens one of the inputs of `deployment` to programs that are no part of it.
 void open_input(const Node& item, DeploymentConfig& deployment, Problems& problems) {
   const auto wanted = config::to_text(item);
@@ -308,6 +324,7 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
     add_unit_executors(deployment);
     // With a component missing, whoever waits for it would look wrong too.
     if (known == components->entries().size()) {
+      close_written_inputs(deployment);
       open_inputs(open, deployment, problems);
       check_graph(deployment, plugins, problems);
       check_isolation(deployment, problems);

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "armature/kinds/registration/explained_fit.hpp"
 #include "armature/kinds/registration/handedness.hpp"
@@ -40,8 +44,22 @@ Expected<std::vector<std::size_t>> matched(const msg::RegistrationRequest& reque
   return same;
 }
 
+/// What would take long: a target's error alone wants six registrations a marker.
+std::optional<std::string> too_many(const msg::RegistrationRequest& request) {
+  constexpr std::size_t kMost = 64;
+  for (const auto& [points, what] :
+       {std::pair{&request.image_markers_(), "markers in the image"},
+        std::pair{&request.robot_markers_(), "markers before the robot"},
+        std::pair{&request.targets_(), "targets"}}) {
+    if (points->size() <= kMost) continue;
+    return fmt::format("{} {}, {} at most are taken", points->size(), what, kMost);
+  }
+  return std::nullopt;
+}
+
 Expected<Answer> answer_to(const Registrar& registrar, const Parameters& parameters,
                            const msg::RegistrationRequest& request) {
+  if (auto wrong = too_many(request)) return refuse(std::move(*wrong));
   MarkerPairs markers{points_of(request.image_markers_()), {}};
   const Points robot = points_of(request.robot_markers_());
   auto match = matched(request, markers.image, robot);

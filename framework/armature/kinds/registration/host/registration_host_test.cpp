@@ -128,6 +128,20 @@ TEST_F(RegistrationHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNot
   EXPECT_EQ(refusal([](auto& r) { r.targets_()[0].z_(INFINITY); }), "the target is not finite");
 }
 
+TEST_F(RegistrationHostTest, RefusesMorePointsThanItMapsInTimeWithTheirNumber) {
+  const auto refusal = [&](auto change) {
+    msg::RegistrationRequest large = request(5);
+    change(large);
+    return ask(large).reason_();
+  };
+  EXPECT_EQ(refusal([](auto& r) { r.image_markers_().resize(200); }),
+            "200 markers in the image, 64 at most are taken");
+  EXPECT_EQ(refusal([](auto& r) { r.robot_markers_().resize(65); }),
+            "65 markers before the robot, 64 at most are taken");
+  EXPECT_EQ(refusal([](auto& r) { r.targets_().resize(100000); }),
+            "100000 targets, 64 at most are taken");
+}
+
 TEST_F(RegistrationHostTest, DoesNotPredictFromAnErrorThatDoesNotExplainTheFit) {
   msg::RegistrationRequest stretched = request(5);
   for (auto& marker : stretched.robot_markers_()) marker.x_(marker.x_() * 1.02);

@@ -71,6 +71,12 @@ class BiopsyComponent final : public Component {
           "nobody writes its input 'markers': add a component that measures markers, or have them "
           "touched (touch_markers: true)");
     }
+    if (robot_.capsules().empty()) {
+      throw SetupError(fmt::format(
+          "robot {} states no bodies of its links, and nothing would keep them out of the vessels "
+          "and the head; state them in its file under capsules (docs/robot_file.md)",
+          robot_.name()));
+    }
     setup.activate_every(kPeriod);
   }
 

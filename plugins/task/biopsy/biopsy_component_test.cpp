@@ -279,6 +279,15 @@ TEST(BiopsyPorts, MarkersComeFromSomebodyOrAreTouched) {
   EXPECT_EQ(refused("touch_markers: true"), "");
 }
 
+TEST(BiopsyRobot, WithoutBodiesIsRefusedAsNothingOfItWouldKeepOutOfTheHead) {
+  EXPECT_EQ(refusal_of(built_plugins(),
+                       {.component = "{plugin: task/biopsy, params: {touch_markers: true}}",
+                        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"),
+                        .rig = {}}),
+            "robot med7 states no bodies of its links, and nothing would keep them out of the "
+            "vessels and the head; state them in its file under capsules (docs/robot_file.md)");
+}
+
 TEST(BiopsyParams, MarkersWithoutAnErrorAreNoStatement) {
   const std::string refused =
       refusal_of(built_plugins(),

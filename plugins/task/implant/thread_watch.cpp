@@ -27,8 +27,11 @@ std::optional<std::string> ThreadWatch::trouble(const Eigen::Vector3d& tool, Tim
                        to_seconds(now - heard_));
   }
   const double turned = angle_.value_or(0) - begun_at_;
+  if (!std::isfinite(turned)) {
+    return fmt::format("what the handpiece tells of how far it has turned is no number: {:g} rad",
+                       std::isfinite(begun_at_) ? *angle_ : begun_at_);
+  }
   const double advance_m = thread_->advance_m(tool);
-  // Not a number is no turn.
   if (std::abs(thread_->ahead_m(tool, turned)) <= parameters_.max_thread_error) return std::nullopt;
   return fmt::format(
       "the implant went in by {:.2f} mm, and was turned by {:.2f} of the {:.2f} turns that its "

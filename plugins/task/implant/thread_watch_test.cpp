@@ -48,7 +48,17 @@ TEST_F(ThreadWatchTest, TellsBothInMillimetresAndTurns) {
 
 TEST_F(ThreadWatchTest, AnAngleThatIsNoneIsTrouble) {
   watch_.see(NAN, at(1.4));
-  EXPECT_NE(watch_.trouble(along(0), at(1.4)), std::nullopt);
+  EXPECT_EQ(watch_.trouble(along(0), at(1.4)),
+            "what the handpiece tells of how far it has turned is no number: nan rad");
+}
+
+TEST_F(ThreadWatchTest, AnAngleThatIsNoneWhenTheImplantBeginsToGoInIsTroubleToo) {
+  watch_.see(INFINITY, at(1));
+  watch_.engage(kThread, at(1));
+  EXPECT_EQ(watch_.trouble(along(0), at(1.4)),
+            "what the handpiece tells of how far it has turned is no number: inf rad");
+  watch_.see(100, at(1.4));
+  EXPECT_NE(watch_.trouble(along(0), at(1.4)), std::nullopt) << "turned from where is not known";
 }
 
 TEST_F(ThreadWatchTest, AHandpieceThatIsSilentIsTrouble) {

@@ -27,6 +27,7 @@ namespace {
 
 constexpr Duration kPeriod = seconds(0.001);
 constexpr double kComesToRestIn_s = 0.3;
+constexpr std::size_t kMostPoses = 5000;  // of a path, which is made on the control thread
 constexpr const char* kLeaderFrame = "leader_base";
 
 Parameters parameters_of(const Params& params) {
@@ -125,6 +126,10 @@ class Surgeon final : public Component {
     constexpr std::string_view kName = "the path of the topic";
     if (auto wrong = not_in_base(poses.header_(), kName)) return refuse(*wrong);
     if (taken_at_) return refuse(fmt::format("{} came when the leader was taken", kName));
+    if (poses.poses_().size() > kMostPoses) {
+      return refuse(fmt::format("{} has {} poses, and {} at most are taken", kName,
+                                poses.poses_().size(), kMostPoses));
+    }
     return pose_path_through(poses, parameters_.path_speed, kName);
   }
 

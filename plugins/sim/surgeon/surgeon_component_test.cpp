@@ -169,6 +169,17 @@ TEST_F(SurgeonTest, APathThatIsNoneOrComesTooLateIsNotFollowedAndSaid) {
             "the path of the topic came when the leader was taken; the hand goes its way");
 }
 
+TEST_F(SurgeonTest, APathOfMorePosesThanAStepHasTimeForIsNotFollowedAndSaid) {
+  make("tremor_mm: 0");
+  msg::PoseArray path = straight_path("base");
+  path.poses_().resize(100000, path.poses_().front());
+  bench_->send("path", path);
+  steps(1);
+  EXPECT_EQ(bench_->lines().back(),
+            "the path of the topic has 100000 poses, and 5000 at most are taken; the hand goes its "
+            "way");
+}
+
 TEST_F(SurgeonTest, TheHandRestsWhileTheTaskIsHeldAndGoesOnWhereItWas) {
   make("");
   align();

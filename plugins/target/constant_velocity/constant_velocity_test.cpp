@@ -212,7 +212,7 @@ TEST(ConstantVelocity, OutliersHereAndThereAreNeverBelieved) {
 }
 
 TEST(ConstantVelocity, APhantomAloneIsNotBelievedHoweverManyPicturesAreMissingBeforeIt) {
-  Camera camera{8, 0.0003, 0.2 * kDegree};
+  Camera camera{8, 0.0003, 0.2 * kRadPerDegree};
   for (const double rate_hz : {10.0, 30.0}) {
     for (int missing = 0; missing <= 5; ++missing) {
       for (const double off_m : {0.04, 0.08, 0.1, 0.15, 0.2, 0.25}) {
@@ -235,7 +235,7 @@ TEST(ConstantVelocity, APhantomAloneIsNotBelievedHoweverManyPicturesAreMissingBe
 }
 
 TEST(ConstantVelocity, PhantomsThatAreAloneAreNotBelievedWhilePicturesAreLost) {
-  Camera camera{9, 0.0003, 0.2 * kDegree};
+  Camera camera{9, 0.0003, 0.2 * kRadPerDegree};
   std::mt19937_64 random{9};
   std::uniform_real_distribution<double> share{0, 1};
   std::normal_distribution<double> normal;
@@ -261,7 +261,7 @@ TEST(ConstantVelocity, PhantomsThatAreAloneAreNotBelievedWhilePicturesAreLost) {
 
 TEST(ConstantVelocity, ATargetThatHasGoneElsewhereInAGapIsBelievedWhenASecondPictureAgrees) {
   const ConstantVelocity filter{{}};
-  Camera camera{10, 0.0003, 0.2 * kDegree};
+  Camera camera{10, 0.0003, 0.2 * kRadPerDegree};
   PluginState state;
   for (int i = 0; i < 20; ++i)
     ASSERT_TRUE(filter.update(camera.look(0.1 * i, kMouth, kNormal), state));
@@ -353,7 +353,7 @@ TEST(ConstantVelocity, CovariancesOfZeroMakeNoMotionOfNoise) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(testing::Message() << "seed " << seed);
     const ConstantVelocity filter{{}};
-    Camera camera{seed, 0.001, 0.3 * kDegree};
+    Camera camera{seed, 0.001, 0.3 * kRadPerDegree};
     PluginState state;
     for (int i = 0; i < 60; ++i) {
       TargetMeasurement look = camera.look(0.1 * i, kMouth, kNormal);
@@ -416,7 +416,7 @@ TEST(ConstantVelocity, PredictsNoFurtherThanItsGap) {
 
 TEST(ConstantVelocity, PredictsNothingForATimeLongBeforeItsNewestMeasurement) {
   const ConstantVelocity filter{{}};
-  Camera camera{1, 0.001, 1 * kDegree};
+  Camera camera{1, 0.001, 1 * kRadPerDegree};
   PluginState state;
   for (int i = 0; i < 20; ++i)
     ASSERT_TRUE(filter.update(camera.look(0.1 * i, kMouth, kNormal), state));

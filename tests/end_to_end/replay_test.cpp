@@ -503,7 +503,7 @@ TEST_F(Replay, AGoalThatIsMissedIsATroubleAroundWhichIsRecorded) {
                   {}, kEnough);
   EXPECT_EQ(json::parse(run.out)["status"], "goals_missed") << run.err;
   EXPECT_THAT(run.err, HasSubstr("what happened around the trouble is recorded: "));
-  ASSERT_FALSE(fs::is_empty(folder_));
+  ASSERT_FALSE(fs::is_empty(folder_.path()));
   const std::string written = fs::directory_iterator { folder_ } -> path();
   EXPECT_EQ(json::parse(attached(written, "figures.json"))["status"], "goals_missed");
 }

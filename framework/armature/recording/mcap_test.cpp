@@ -28,15 +28,15 @@ TEST(McapDeathTest, AFileThatIsMadeShorterWhileItIsReadIsNamed) {
     write_all_but_the_end(writer, 1000);
     writer.close();
   }
-  EXPECT_EXIT(
-      {
-        McapReader reader{file.path(), true};
-        reader.next();
-        fs::resize_file(file.path(), 10);
-        while (reader.next()) continue;
-        std::exit(2);
-      },
-      testing::ExitedWithCode(1), "shorter.mcap' was made shorter while it was read");
+  const auto read = [&file] {
+    McapReader reader{file.path(), true};
+    reader.next();
+    fs::resize_file(file.path(), 10);
+    while (reader.next()) continue;
+    std::exit(2);
+  };
+  EXPECT_EXIT(read(), testing::ExitedWithCode(1),
+              "shorter.mcap' was made shorter while it was read");
 }
 
 /// Two channels in small chunks, an attachment and metadata.

@@ -355,16 +355,19 @@ TEST(ConstantVelocity, CovariancesOfZeroMakeNoMotionOfNoise) {
     const ConstantVelocity filter{{}};
     Camera camera{seed, 0.001, 0.3 * kRadPerDegree};
     PluginState state;
+    int refused = 0;  // until it has learned how much they scatter
     for (int i = 0; i < 60; ++i) {
       TargetMeasurement look = camera.look(0.1 * i, kMouth, kNormal);
       look.position_covariance.setZero();
       look.normal_covariance.setZero();
       const auto estimate = filter.update(look, state);
-      ASSERT_TRUE(estimate) << i << ": " << estimate.error().text;
+      if (!estimate) ++refused;
       if (i < 40) continue;
+      ASSERT_TRUE(estimate) << i << ": " << estimate.error().text;
       EXPECT_LT(estimate->velocity.norm(), 0.02) << i;
       EXPECT_LT((estimate->position - kMouth).norm(), 0.003) << i;
     }
+    EXPECT_LE(refused, 5);
   }
 }
 

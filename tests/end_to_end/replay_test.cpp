@@ -504,7 +504,7 @@ TEST_F(Replay, AGoalThatIsMissedIsATroubleAroundWhichIsRecorded) {
   EXPECT_EQ(json::parse(run.out)["status"], "goals_missed") << run.err;
   EXPECT_THAT(run.err, HasSubstr("what happened around the trouble is recorded: "));
   ASSERT_FALSE(fs::is_empty(folder_.path()));
-  const std::string written = fs::directory_iterator{folder_.path()}->path();
+  const std::string written = fs::directory_iterator { folder_.path() } -> path();
   EXPECT_EQ(json::parse(attached(written, "figures.json"))["status"], "goals_missed");
 }
 

@@ -34,16 +34,6 @@ bool matches(const std::string& topic, const std::string& wanted) {
                        topic);
 }
 
-/// The writer whose type and QoS a reader is given that is made now (DdsObserver::watch).
-const ObservedEndpoint& read_like(const ObservedTopic& topic) {
-  const auto is_of_its_deployment = [&](const ObservedEndpoint& endpoint) {
-    return endpoint.writes && !endpoint.deployment.empty() &&
-           topic.name.starts_with("rt/" + endpoint.deployment + "/");
-  };
-  const auto own = std::ranges::find_if(topic.endpoints, is_of_its_deployment);
-  return own == topic.endpoints.end() ? topic.endpoints.front() : *own;  // writers come first
-}
-
 /// Watches the wanted topics, those that come up later, too.
 class Topics {
  public:
@@ -65,7 +55,7 @@ class Topics {
       const auto watching = outsider_.dds().watch(
           topic.name, Duration{0},
           [this, name](const ObservedSample& sample) { recorder_.add(name, sample); });
-      if (watching) watched_.emplace(name, read_like(topic));
+      if (watching) watched_.emplace(name, topic.endpoints.front());
     }
   }
   std::size_t count() const { return watched_.size(); }

@@ -140,7 +140,7 @@ std::string info_text(const InfoOptions& info, int exit_code) {
   return out + testing::internal::GetCapturedStderr();
 }
 
-/// What `armature info --json` tells.
+/// The object that `armature info --json` prints.
 nlohmann::json info_of(const std::filesystem::path& file, bool verify) {
   testing::internal::CaptureStdout();
   EXPECT_EQ(describe_recording({.file = file, .json = true, .verify = verify}), kOk);

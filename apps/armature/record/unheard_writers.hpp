@@ -7,8 +7,8 @@
 
 namespace armature {
 
-/// How many writers of a topic a reader does not hear that was made for the type and the QoS of
-/// `read_like`.
+/// The number of writers of `topic` that are not heard by a reader with the type and the QoS of the
+/// writer `read_like`.
 inline int unheard_writers(const ObservedTopic& topic, const ObservedEndpoint& read_like) {
   const auto is_unheard = [&](const ObservedEndpoint& endpoint) {
     return endpoint.writes &&

@@ -148,9 +148,9 @@ class Comparison {
   }
 
   const std::string& process() const { return run_.process(); }
-  /// What is wrong with the recording.
+  /// Damage and gaps of the recording, one line each.
   std::vector<std::string> problems() const { return run_.problems(); }
-  /// What the operator should know of the two that are compared, each once.
+  /// Notes on both runs, the recorded one and the one with other settings, each once.
   std::set<std::string> notes() const {
     std::set<std::string> notes{before_.process.notes().begin(), before_.process.notes().end()};
     notes.insert(now_.process.notes().begin(), now_.process.notes().end());

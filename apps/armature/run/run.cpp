@@ -174,7 +174,8 @@ void tell_network(const Network& network, Console& console) {
                                             "fingerprint"));
 }
 
-/// What went wrong in a scenario that came to its end is a trouble of none of its components.
+/// Has the black box written for a run that ends with another status than ok though no component
+/// was unwell: a task refused, a goal was missed.
 void tell_status_to_black_box(const std::string& status, Deployment& deployment) {
   const auto& record = deployment.config().record;
   if (!record || !record->around_faults || status == "ok") return;

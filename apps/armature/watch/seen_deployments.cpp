@@ -65,7 +65,7 @@ std::optional<SeenDeployments::OwnTopic> SeenDeployments::own_topic(const Observ
   };
   const bool has_own = std::ranges::any_of(topic.endpoints, is_own);
   for (const ObservedEndpoint& endpoint : topic.endpoints) {
-    // What another program tells in other words where no deployment is does not look like one.
+    // A topic of this name with another type, where no deployment is, is nothing to note.
     const bool is_like = has_own || endpoint.type == type.dds_name;
     if (!endpoint.writes || is_own(endpoint) || !is_like) continue;
     note(endpoint.owner + " " + topic.name,

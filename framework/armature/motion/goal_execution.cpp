@@ -13,13 +13,12 @@ constexpr int kMaxAttempts = 3;                    // to plan while the arm move
 constexpr double kStill = 1e-3;                    // [rad/s] or [m/s] that an arm tells of itself
 constexpr double kSamePlace = 1e-6;                // [rad] or [m]
 constexpr Duration kPausePatience = seconds(0.1);  // behind the start that its plan should have
-constexpr Duration kAnswer =
-    seconds(1);  // so soon a drive that is on has gone where the reference came
+// Within this a drive that is on has gone where the reference came.
+constexpr Duration kAnswer = seconds(1);
 
 constexpr std::string_view kBesideItself =
-    "the arm goes along when the reference comes to it, so the reference stays: look at its "
-    "encoders "
-    "and its load";
+    "the arm goes along when the reference comes to it, so the reference stays: look at the arm's "
+    "encoders and load";
 
 /// Of which a plan is made.
 bool is_planned(MotionMode mode) {

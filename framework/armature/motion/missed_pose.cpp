@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/motion/missed_pose.hpp"
 
-#include <numbers>
-
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/values/angles.hpp"
 
 namespace armature {
 
@@ -12,7 +11,7 @@ ReasonText missed_by(const RobotModel& model, const JointVector& q, const ToolPo
   const PoseResidual miss = residual(forward_kinematics(model, q), axis, pose);
   if (miss.position_m <= kMayMiss.position_m && miss.angle_rad <= kMayMiss.angle_rad) return {};
   return ReasonText::format("{:.4f} mm and {:.4f} degrees", 1e3 * miss.position_m,
-                            miss.angle_rad * 180 / std::numbers::pi);
+                            kDegreesPerRad * miss.angle_rad);
 }
 
 }  // namespace armature

@@ -25,3 +25,9 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+// The library of fmt has this function. Where its template is known, as it is here, each file that
+// formats into a buffer would compile it again, with all that it calls.
+extern template void fmt::detail::vformat_to<char>(buffer<char>&, string_view,
+                                                   basic_format_args<buffer_context<char>>,
+                                                   locale_ref);

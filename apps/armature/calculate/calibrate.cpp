@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "calculate/calibrate.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -23,6 +22,7 @@
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "armature/values/angles.hpp"
 #include "armature/values/json_text.hpp"
+#include "date_text.hpp"
 #include "exit_code.hpp"
 #include "readable_json.hpp"
 #include "standard_output.hpp"
@@ -79,7 +79,7 @@ std::string flange_name(const CalibrationOptions& options) {
 Json head(const char* kind, const char* method, const CalibrationOptions& options,
           std::size_t poses) {
   Json json{{"armature_calibration", 1}, {"kind", kind}, {"method", method}};
-  json["date_utc"] = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(std::time(nullptr)));
+  json["date_utc"] = date_text(utc(std::time(nullptr)), "%Y-%m-%dT%H:%M:%SZ");
   json["poses_file"] = options.poses;
   if (!options.arm.robot.empty()) json["robot_file"] = options.arm.robot;
   json["poses"] = poses;

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "armature/recording/mcap_summary.hpp"
 #include "armature/recording/recorded_processes.hpp"
 #include "armature/values/json_text.hpp"
+#include "date_text.hpp"
 #include "exit_code.hpp"
 #include "record/record.hpp"
 #include "record/repaired.hpp"
@@ -203,8 +203,7 @@ void print(const Contents& contents) {
 /// A log time as people say it: "2026-11-26 10:15:23.004 UTC".
 std::string moment(Time time) {
   const std::int64_t s = time.ns / 1'000'000'000, ms = time.ns / 1'000'000 % 1000;
-  return fmt::format("{:%Y-%m-%d %H:%M:%S}.{:03} UTC", fmt::gmtime(static_cast<std::time_t>(s)),
-                     ms);
+  return fmt::format("{}.{:03} UTC", date_text(utc(s), "%Y-%m-%d %H:%M:%S"), ms);
 }
 
 /// What the chain says of the file, in a line or two; `elsewhere`: something is wrong all the same.

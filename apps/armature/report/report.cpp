@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "report/report.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,6 +17,7 @@
 #include "armature/runtime/recording/page_rate.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "armature/values/json_text.hpp"
+#include "date_text.hpp"
 #include "exit_code.hpp"
 #include "record/record.hpp"
 #include "record/repaired.hpp"
@@ -70,9 +70,8 @@ std::string escaped(std::string_view text) {
   return escaped;
 }
 
-std::string utc(Time time) {
-  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC",
-                     fmt::gmtime(static_cast<std::time_t>(time.ns / 1'000'000'000)));
+std::string date_of(Time time) {
+  return date_text(utc(time.ns / 1'000'000'000), "%Y-%m-%d %H:%M:%S UTC");
 }
 
 std::string_view state_of(const RunContents& contents) {
@@ -112,7 +111,7 @@ nlohmann::ordered_json provenance(const ReportOptions& options, const RunContent
   add("Checked", std::string{state_of(contents)});
   for (const std::string& repair : contents.repairs) add("Incomplete", repair);
   add("Recorded",
-      fmt::format("{}, {:.1f} s", utc(contents.first), to_seconds(contents.last - contents.first)));
+      fmt::format("{}, {:.1f} s", date_of(contents.first), to_seconds(contents.last - contents.first)));
   add("Deployment", of_deployment("deployment"));
   add("Version", of_deployment("version"));
   add("Fingerprint", of_deployment("fingerprint"));

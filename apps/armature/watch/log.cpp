@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "watch/log.hpp"
 
-#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include "armature/messages/stamp.hpp"
 #include "armature/values/json_text.hpp"
 #include "colour.hpp"
+#include "date_text.hpp"
 #include "exit_code.hpp"
 #include "standard_output.hpp"
 #include "terminal_text.hpp"
@@ -48,7 +48,7 @@ std::string time_text(Time time) {
   const std::time_t whole = time.ns / kSecond;
   std::tm local{};
   localtime_r(&whole, &local);
-  return fmt::format("{:%H:%M:%S}.{:03}", local, time.ns % kSecond / 1'000'000);
+  return fmt::format("{}.{:03}", date_text(local, "%H:%M:%S"), time.ns % kSecond / 1'000'000);
 }
 
 /// A line, and who has written it.

@@ -9,10 +9,10 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/values/temporary_folder.hpp"
@@ -38,11 +38,11 @@ using bench::MeasuredLoop;
 /// The port that `armature monitor` has told. Throws std::runtime_error.
 int port_of(const bench::Program& monitor) {
   constexpr int kTimeout_ms = 20'000;
-  const std::regex address{"ws://127\\.0\\.0\\.1:([0-9]+)"};
+  constexpr std::string_view kAddress = "ws://127.0.0.1:";
   for (int waited_ms = 0; waited_ms < kTimeout_ms; waited_ms += 10) {
     const std::string told = monitor.out();
-    std::smatch match;
-    if (std::regex_search(told, match, address)) return std::stoi(match[1]);
+    const std::size_t at = told.find(kAddress);
+    if (at != std::string::npos) return std::stoi(told.substr(at + kAddress.size()));
     bench::pause_s(0.01);
   }
   throw std::runtime_error{"the monitor has not told its address within 20 s: " + monitor.err()};

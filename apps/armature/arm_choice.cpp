@@ -3,8 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "armature/config/document.hpp"
 #include "armature/config/problems.hpp"
 #include "armature/robot/files/urdf_robot.hpp"

@@ -18,12 +18,9 @@ bool shows_colours(std::FILE* stream) {
 
 fmt::terminal_color colour_of(Tone tone) {
   switch (tone) {
-    case Tone::good:
-      return fmt::terminal_color::green;
-    case Tone::doubtful:
-      return fmt::terminal_color::yellow;
-    case Tone::bad:
-      break;
+    case Tone::good: return fmt::terminal_color::green;
+    case Tone::doubtful: return fmt::terminal_color::yellow;
+    case Tone::bad: break;
   }
   return fmt::terminal_color::red;
 }

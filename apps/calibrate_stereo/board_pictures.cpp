@@ -29,7 +29,7 @@ void check_size(BoardPictures& found, const GrayPicture& picture, const std::str
 BoardPictures read_board_pictures(const std::filesystem::path& left,
                                   const std::filesystem::path& right,
                                   const chessboard::BoardShape& shape) {
-  pictures::FolderPictures folders{{.left = left, .right = right, .timestamps = {}, .skip = true}};
+  pictures::FolderPictures folders{{.left = left, .right = right, .skip = true}};
   if (!folders.remark().empty()) fmt::print(stderr, "left out: {}\n", folders.remark());
   BoardPictures found;
   for (const pictures::FilePair& pair : folders.files()) {

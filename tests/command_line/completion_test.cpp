@@ -2,7 +2,6 @@
 // What a shell completes, asked of bash itself; and the manual page.
 #include <gmock/gmock.h>
 
-#include <algorithm>
 #include <sstream>
 
 #include "command.hpp"

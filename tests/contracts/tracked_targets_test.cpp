@@ -51,8 +51,7 @@ class CircleRun {
                               "}, path: {plugin: path/joint_move}, ik: {plugin: " + arm.ik +
                               "}, select: {plugin: select/nearest}, trajectory: {plugin: "
                               "trajectory/quintic}}",
-                 .robot = config::load(file_of(arm)),
-                 .rig = {}}},
+                 .robot = config::load(file_of(arm))}},
         rate_{2 * M_PI * hz} {
     q_ = resting_position(arm_);
     for (std::size_t i = 0; i < arm.rest_deg.size(); ++i) {

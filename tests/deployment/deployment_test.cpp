@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "armature/config/document.hpp"
@@ -43,7 +42,7 @@ class DeploymentTest : public testing::Test {
                                "  ear: {plugin: test/ear" +
                                ear + "}\n"),
                           plugins_,
-                          {.process = "main", .on_line = {}, .on_note = {}}};
+                          {.process = "main"}};
     RunWatch alone;
     deployment.run(alone);
     RunReport::Ending ending;
@@ -52,8 +51,6 @@ class DeploymentTest : public testing::Test {
     Told told{
         .status = report.status(),
         .reasons = report.reasons(),
-        .metrics = {},
-        .texts = {},
         .json = to_json(report),
         .table = to_table(report, [](std::string_view word, bool) { return std::string{word}; })};
     for (const auto& figure : report.figures()) {

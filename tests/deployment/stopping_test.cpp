@@ -54,13 +54,10 @@ class Stopping : public testing::TestWithParam<const char*> {
     std::mutex mutex;
     Deployment deployment{std::move(config),
                           plugins_,
-                          {.process = "main",
-                           .on_line =
-                               [&](const auto& who, const auto& text) {
-                                 const std::scoped_lock lock{mutex};
-                                 run.said.push_back(std::string{who} + " " + std::string{text});
-                               },
-                           .on_note = {}}};
+                          {.process = "main", .on_line = [&](const auto& who, const auto& text) {
+                             const std::scoped_lock lock{mutex};
+                             run.said.push_back(std::string{who} + " " + std::string{text});
+                           }}};
     const Time start = deployment.clock().now();
     deployment.run(watch);
     run.ended_s = to_seconds(deployment.clock().now() - start);

@@ -33,8 +33,7 @@ class Interfaces : public testing::Test {
     settings.push_back("components.ear.params.listens_s=1000");
     const DeploymentStart start{.files = {source_file("tests/end_to_end/pulse.yaml")},
                                 .settings = std::move(settings),
-                                .domain = domain_,
-                                .options = {}};
+                                .domain = domain_};
     return std::make_unique<Command>(
         host.command(deployment_command(start)),
         Command::Options{.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}});
@@ -142,8 +141,7 @@ TEST_F(Interfaces, CarryNothingIntoAnInputThatTheDeploymentFeedsItself) {
 TEST_F(Interfaces, CarryAStopToAnotherMachine) {
   Command run{robot_.command(deployment_command({.files = {source_file("configs/sr1_biopsy.yaml")},
                                                  .settings = {kJoined, "clock=system"},
-                                                 .domain = domain_,
-                                                 .options = {}}))};
+                                                 .domain = domain_}))};
   ASSERT_TRUE(run.wait_for_err("task      approach", kTimeout)) << run.err();
   const auto stop =
       run_command(armature_on(desk_, {"stop", "--timeout", "8", "--interface", "eth0"}));

@@ -29,10 +29,8 @@ class OtherMachines : public testing::Test {
   std::unique_ptr<Command> start(const TwoHosts::Host& host, const std::string& file,
                                  std::vector<std::string> settings,
                                  const std::vector<std::string>& words = {}) const {
-    const DeploymentStart start{.files = {source_file(file)},
-                                .settings = std::move(settings),
-                                .domain = domain_,
-                                .options = {}};
+    const DeploymentStart start{
+        .files = {source_file(file)}, .settings = std::move(settings), .domain = domain_};
     std::vector<std::string> all = deployment_command(start);
     all.insert(all.end(), words.begin(), words.end());
     return std::make_unique<Command>(

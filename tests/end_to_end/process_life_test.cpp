@@ -69,8 +69,8 @@ class HeardArm {
   }
 
   PluginRegistry plugins_;
-  drill::DrilledDeployment deployment_ = drill::read_drilled(
-      {.files = {source_file("configs/dental_lamp.yaml")}, .assignments = {}}, plugins_);
+  drill::DrilledDeployment deployment_ =
+      drill::read_drilled({.files = {source_file("configs/dental_lamp.yaml")}}, plugins_);
   drill::ArmListener listener_;
 };
 

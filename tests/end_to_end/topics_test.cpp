@@ -2,7 +2,6 @@
 // What a user sees of a running deployment from another terminal: time, frames and rates.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdint>

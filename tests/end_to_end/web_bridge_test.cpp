@@ -5,7 +5,6 @@
 #include <chrono>
 #include <csignal>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "armature/recording/recording_test.hpp"

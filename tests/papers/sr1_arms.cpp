@@ -9,7 +9,7 @@
 namespace armature::paper {
 
 SolvedArm solved_arm(RobotModel model) {
-  SolvedArm arm{.model = std::make_shared<const RobotModel>(std::move(model)), .solver = {}};
+  SolvedArm arm{.model = std::make_shared<const RobotModel>(std::move(model))};
   auto solver = built_plugins().make<IkSolver>("ik/puma_algebraic", *arm.model, Params{});
   if (!solver) throw std::runtime_error(solver.error().text);
   auto held = std::make_shared<PluginPtr<IkSolver>>(std::move(*solver));

@@ -3,7 +3,6 @@
 // are planned for it and executed, while it tracks, when it is stopped and when the run ends.
 #include <gtest/gtest.h>
 
-#include <array>
 #include <atomic>
 #include <cstring>
 
@@ -92,8 +91,7 @@ TEST_P(MotionAllocations, AreNone) {
           {std::string{ARMATURE_SOURCE_DIR "/configs/"} + GetParam().deployment}, settings),
       plugins, problems);
   problems.throw_if_any();
-  Deployment deployment{
-      std::move(config), plugins, {.process = "main", .on_line = {}, .on_note = {}}};
+  Deployment deployment{std::move(config), plugins, {.process = "main"}};
   StopAt watch{deployment, GetParam().stop_at_s};
   motion_allocations = other_allocations = 0;
   on_allocation = count_by_component;

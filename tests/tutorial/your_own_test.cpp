@@ -6,7 +6,6 @@
 
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "command.hpp"
 #include "tests/dds_domain.hpp"

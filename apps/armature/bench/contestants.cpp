@@ -65,7 +65,7 @@ std::vector<Contestant> contestants(const PluginRegistry& registry, std::string_
   for (const PluginManifest* plugin : plugins) {
     const config::Node* own = all.find(plugin->id);
     config::Problems missing;
-    Contestant contestant{.plugin = plugin, .params = {}, .lacks = {}};
+    Contestant contestant{.plugin = plugin};
     contestant.params = Params::read(plugin->params, own, plugin->id, own ? problems : missing);
     for (const config::Problem& problem : missing.sorted()) {
       contestant.lacks += (contestant.lacks.empty() ? "" : "; ") + problem.message;

@@ -214,12 +214,9 @@ void judge_plugins(const PluginFacts& plugins, Findings& findings) {
 
 std::string_view to_string(Level level) {
   switch (level) {
-    case Level::ok:
-      return "ok";
-    case Level::warning:
-      return "warning";
-    case Level::problem:
-      break;
+    case Level::ok: return "ok";
+    case Level::warning: return "warning";
+    case Level::problem: break;
   }
   return "problem";
 }

@@ -54,8 +54,7 @@ std::optional<Fault> two_signals(const DrilledDeployment&, Form) {
 }
 
 std::optional<Fault> closed_terminal(const DrilledDeployment&, Form) {
-  return Fault{.name = {},
-               .shown = {},  // nobody is there to read it
+  return Fault{.name = {},  // nobody is there to read it
                .fire = [](Scene& scene) {
                  scene.run.close_terminal();
                  return std::string{};
@@ -63,7 +62,7 @@ std::optional<Fault> closed_terminal(const DrilledDeployment&, Form) {
 }
 
 std::optional<Fault> unread_terminal(const DrilledDeployment&, Form) {
-  return Fault{.name = {}, .shown = {}, .fire = [](Scene& scene) {
+  return Fault{.name = {}, .fire = [](Scene& scene) {
                  scene.run.fill_terminal();
                  return send(scene, "main", SIGINT);
                }};
@@ -103,7 +102,6 @@ std::optional<Fault> driver_halted(const DrilledDeployment& deployment, Form for
   if (form == Form::single || deployment.arms.front().process == "main") return std::nullopt;
   return Fault{.name = {},
                .outcome = Outcome::goes_on,
-               .shown = {},
                .may_give_up = true,  // teleoperation holds when its leader was silent for 0.1 s
                .fire = [process = deployment.arms.front().process](Scene& scene) {
                  std::string wrong = send(scene, process, SIGSTOP);
@@ -135,7 +133,7 @@ std::optional<Fault> injected(const DrilledComponent& component, Form form, cons
 
 std::optional<Fault> motion_throws(const DrilledDeployment& deployment, Form form) {
   return injected(deployment.commander, form, "throw",
-                  {.name = {}, .shown = "step failed: a drill's fault", .fire = {}});
+                  {.name = {}, .shown = "step failed: a drill's fault"});
 }
 std::optional<Fault> motion_hangs(const DrilledDeployment& deployment, Form form) {
   // A driver whose thread does not return from another component's step is halted with it.
@@ -143,22 +141,18 @@ std::optional<Fault> motion_hangs(const DrilledDeployment& deployment, Form form
   return injected(
       deployment.commander, form, "hang",
       {.name = {},
-       .shown = fmt::format("the step of '{}' has not returned", deployment.commander.name),
-       .fire = {}});
+       .shown = fmt::format("the step of '{}' has not returned", deployment.commander.name)});
 }
 std::optional<Fault> motion_crashes(const DrilledDeployment& deployment, Form form) {
   if (form == Form::single) return std::nullopt;  // a crash takes its process along
-  return injected(deployment.commander, form, "crash",
-                  {.name = {},
-                   .shown = fmt::format("component '{}' crashed", deployment.commander.name),
-                   .fire = {}});
+  return injected(
+      deployment.commander, form, "crash",
+      {.name = {}, .shown = fmt::format("component '{}' crashed", deployment.commander.name)});
 }
 std::optional<Fault> monitor_throws(const DrilledDeployment& deployment, Form form) {
-  return injected(deployment.monitor, form, "throw",
-                  {.name = {},
-                   .outcome = Outcome::goes_on,
-                   .shown = "step failed: a drill's fault",
-                   .fire = {}});
+  return injected(
+      deployment.monitor, form, "throw",
+      {.name = {}, .outcome = Outcome::goes_on, .shown = "step failed: a drill's fault"});
 }
 std::optional<Fault> monitor_hangs(const DrilledDeployment& deployment, Form form) {
   if (form == Form::single && deployment.monitor.shares_arm_thread) return std::nullopt;
@@ -166,13 +160,12 @@ std::optional<Fault> monitor_hangs(const DrilledDeployment& deployment, Form for
       deployment.monitor, form, "hang",
       {.name = {},
        .outcome = Outcome::goes_on,
-       .shown = fmt::format("the step of '{}' has not returned", deployment.monitor.name),
-       .fire = {}});
+       .shown = fmt::format("the step of '{}' has not returned", deployment.monitor.name)});
 }
 std::optional<Fault> monitor_crashes(const DrilledDeployment& deployment, Form form) {
   if (form == Form::single || deployment.monitor.process == "main") return std::nullopt;
   return injected(deployment.monitor, form, "crash",
-                  {.name = {}, .outcome = Outcome::goes_on, .shown = kIsolated, .fire = {}});
+                  {.name = {}, .outcome = Outcome::goes_on, .shown = kIsolated});
 }
 
 // Other programs on the machine.
@@ -190,7 +183,7 @@ std::optional<Fault> stranger(const DrilledDeployment&, Form form) {
 }
 
 std::optional<Fault> second_start(const DrilledDeployment&, Form) {
-  return Fault{.name = {}, .outcome = Outcome::goes_on, .shown = {}, .fire = [](Scene& scene) {
+  return Fault{.name = {}, .outcome = Outcome::goes_on, .fire = [](Scene& scene) {
                  RunUnderTest second{scene.arguments, scene.stop};
                  if (!second.ends_within(std::chrono::seconds{20})) {
                    return std::string{"a second start was not refused"};

@@ -146,12 +146,9 @@ class Trial {
     const std::vector<bool> moved = listener_.moving();
     if (const std::string wrong = fault_.fire(scene); !wrong.empty()) return fail(wrong);
     switch (fault_.outcome) {
-      case Outcome::stops:
-        return true;
-      case Outcome::goes_on:
-        return go_on(moved);
-      case Outcome::holds:
-        return hold();
+      case Outcome::stops: return true;
+      case Outcome::goes_on: return go_on(moved);
+      case Outcome::holds: return hold();
     }
     return true;
   }

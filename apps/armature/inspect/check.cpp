@@ -100,8 +100,7 @@ DeploymentConfig read_for_check(const DeploymentSource& source, const PluginRegi
 /// Constructing the components is how a solver gets to refuse its robot.
 void construct(DeploymentConfig config, PluginRegistry& plugins, Findings& findings) {
   name_crashing_components();
-  const Deployment constructed{
-      std::move(config), plugins, {.process = "", .on_line = {}, .on_note = {}}};
+  const Deployment constructed{std::move(config), plugins, {.process = ""}};
   for (const auto& warnings :
        {executor_warnings(constructed.config()), isolation_warnings(constructed.config())}) {
     findings.warnings.insert(findings.warnings.end(), warnings.begin(), warnings.end());

@@ -130,14 +130,10 @@ std::string mermaid_of(const DrawnGraph& graph) {
 
 std::string drawing_of(const DrawnGraph& graph, GraphFormat format) {
   switch (format) {
-    case GraphFormat::json:
-      return json_of(graph);
-    case GraphFormat::dot:
-      return dot_of(graph);
-    case GraphFormat::mermaid:
-      return mermaid_of(graph);
-    case GraphFormat::text:
-      break;
+    case GraphFormat::json: return json_of(graph);
+    case GraphFormat::dot: return dot_of(graph);
+    case GraphFormat::mermaid: return mermaid_of(graph);
+    case GraphFormat::text: break;
   }
   return text_of(graph);
 }

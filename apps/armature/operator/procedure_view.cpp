@@ -15,16 +15,11 @@ namespace {
 
 std::string_view name_of(const msg::TaskStep& step) {
   switch (static_cast<Procedure::StepState>(step.state_())) {
-    case Procedure::StepState::ahead:
-      return "ahead";
-    case Procedure::StepState::asks:
-      return "waits for confirm";
-    case Procedure::StepState::active:
-      return "active";
-    case Procedure::StepState::done:
-      return "done";
-    case Procedure::StepState::broken_off:
-      return "broken off";
+    case Procedure::StepState::ahead: return "ahead";
+    case Procedure::StepState::asks: return "waits for confirm";
+    case Procedure::StepState::active: return "active";
+    case Procedure::StepState::done: return "done";
+    case Procedure::StepState::broken_off: return "broken off";
   }
   return "unknown";
 }

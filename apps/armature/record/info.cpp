@@ -71,7 +71,6 @@ Contents contents_of(const McapSummary& summary) {
                     .chunks = summary.chunks,
                     .packed_bytes = summary.packed_bytes,
                     .unpacked_bytes = summary.unpacked_bytes,
-                    .topics = {},
                     .attachments = summary.attachments,
                     .metadata = summary.metadata,
                     .links = summary.links,
@@ -223,8 +222,7 @@ std::string told_by(const McapChain& chain, bool elsewhere) {
           "is {}",
           chain.chunks > 0 ? " after " + moment(chain.until) : " before its first chunk",
           chain.chunks, chain.bytes, chain.links, chain.head);
-    case McapChain::Verdict::changed:
-      break;
+    case McapChain::Verdict::changed: break;
   }
   std::string text;
   for (const std::string& change : chain.changes) {
@@ -275,14 +273,10 @@ std::string megabytes(std::uint64_t bytes) {
 
 std::string_view word_of(McapChain::Verdict verdict) {
   switch (verdict) {
-    case McapChain::Verdict::whole:
-      return "whole";
-    case McapChain::Verdict::cut:
-      return "cut";
-    case McapChain::Verdict::changed:
-      return "changed";
-    case McapChain::Verdict::none:
-      break;
+    case McapChain::Verdict::whole: return "whole";
+    case McapChain::Verdict::cut: return "cut";
+    case McapChain::Verdict::changed: return "changed";
+    case McapChain::Verdict::none: break;
   }
   return "none";
 }

@@ -410,7 +410,6 @@ TEST(ARecordedTopic, HasWritersThatAreNotHeardWhereTypeOrQosDoNotMatchThoseOfThe
   reader.writes = false;
   const ObservedTopic topic{.name = "rt/a",
                             .types = {"T", "U"},
-                            .deployments = {},
                             .writers = 4,
                             .readers = 1,
                             .endpoints = {latched, state, sensor, other, reader}};

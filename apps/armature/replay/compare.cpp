@@ -82,8 +82,7 @@ struct Side {
       solver = {.component = name,
                 .plugin = slot.plugin_id,
                 .robot = robot_of(*config),
-                .params = given_params(*config, slot.name),
-                .calls = {}};
+                .params = given_params(*config, slot.name)};
       const auto watching = watch_ik(
           **place, {plugins.load(*slot.manifest, slot.manifest->kind), *slot.manifest, slot.params},
           solver.calls);

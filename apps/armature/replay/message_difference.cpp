@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <bit>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "armature/messages/cdr_to_json.hpp"
@@ -44,8 +43,7 @@ std::optional<MessageDifference> element_difference(const FieldDescription& fiel
   if (field.kind == FieldKind::float64) return number_difference<double, std::uint64_t>(a, b);
   if (field.kind == FieldKind::float32) return number_difference<float, std::uint32_t>(a, b);
   if (a == b) return std::nullopt;
-  return MessageDifference{
-      .field = {}, .recorded = json_text(a), .replayed = json_text(b), .ulps = {}};
+  return MessageDifference{.field = {}, .recorded = json_text(a), .replayed = json_text(b)};
 }
 
 std::optional<MessageDifference> array_difference(const FieldDescription& field, const Json& a,
@@ -59,8 +57,7 @@ std::optional<MessageDifference> array_difference(const FieldDescription& field,
   if (a.size() == b.size()) return std::nullopt;
   return MessageDifference{.field = {},
                            .recorded = fmt::format("{} elements", a.size()),
-                           .replayed = fmt::format("{}", b.size()),
-                           .ulps = {}};
+                           .replayed = fmt::format("{}", b.size())};
 }
 
 std::optional<MessageDifference> structure_difference(const TypeDescription& type, const Json& a,
@@ -88,7 +85,7 @@ std::optional<MessageDifference> first_difference(const TypeDescription& type,
     const auto told = [](const auto& message) {
       return message ? std::string{"a message"} : message.error().text;
     };
-    return MessageDifference{.field = "all", .recorded = told(a), .replayed = told(b), .ulps = {}};
+    return MessageDifference{.field = "all", .recorded = told(a), .replayed = told(b)};
   }
   return structure_difference(type, *a, *b);
 }

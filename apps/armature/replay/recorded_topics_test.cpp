@@ -236,7 +236,7 @@ TEST_F(RecordedTopicsTest, WhatIsRecordedByWriterAndReaderIsToldOnce) {
   write_joined(file_.path());
   open();
   watch("/fast");
-  recording_->request({.plays = true, .speed = 1000, .seek = {}});
+  recording_->request({.plays = true, .speed = 1000});
   for (int i = 0; i < 2000 && recording_->state().status != Playback::Status::ended; ++i) {
     recording_->advance();
     std::this_thread::sleep_for(std::chrono::milliseconds{1});

@@ -81,8 +81,7 @@ std::optional<std::string> ReplayedComponent::repeat(const msg::Activation& call
     }
     sample.mutable_info() = {.published = stamp_of(read.published_()),
                              .writer = read.writer_(),
-                             .sequence = read.sequence_(),
-                             .answers_to = {}};
+                             .sequence = read.sequence_()};
     runner_->inbox().put(*input.port, sample);
   }
   answers_ = call.had_subscribers_();
@@ -91,18 +90,13 @@ std::optional<std::string> ReplayedComponent::repeat(const msg::Activation& call
   const Time now = stamp_of(call.now_());
   clock_.set(now);
   switch (static_cast<ComponentCall>(call.call_())) {
-    default:
-      return fmt::format("there is no call {}", call.call_());
-    case ComponentCall::step:
-      runner_->step(now);
-      break;
+    default: return fmt::format("there is no call {}", call.call_());
+    case ComponentCall::step: runner_->step(now); break;
     case ComponentCall::begin_stop:
       runner_->request_stop();
       runner_->answer_stop_request(now);
       break;
-    case ComponentCall::stop:
-      runner_->stop(now);
-      break;
+    case ComponentCall::stop: runner_->stop(now); break;
   }
   return std::nullopt;
 }

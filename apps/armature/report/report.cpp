@@ -51,20 +51,11 @@ std::string escaped(std::string_view text) {
   std::string escaped;
   for (const char c : text) {
     switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      default:
-        escaped += c;
+      case '&': escaped += "&amp;"; break;
+      case '"': escaped += "&quot;"; break;
+      case '<': escaped += "&lt;"; break;
+      case '>': escaped += "&gt;"; break;
+      default: escaped += c;
     }
   }
   return escaped;
@@ -76,14 +67,10 @@ std::string date_of(Time time) {
 
 std::string_view state_of(const RunContents& contents) {
   switch (contents.chain.verdict) {
-    case McapChain::Verdict::whole:
-      return contents.is_whole ? "whole and unchanged" : "not whole";
-    case McapChain::Verdict::cut:
-      return "cut off";
-    case McapChain::Verdict::changed:
-      return "changed after it was written";
-    case McapChain::Verdict::none:
-      break;
+    case McapChain::Verdict::whole: return contents.is_whole ? "whole and unchanged" : "not whole";
+    case McapChain::Verdict::cut: return "cut off";
+    case McapChain::Verdict::changed: return "changed after it was written";
+    case McapChain::Verdict::none: break;
   }
   return contents.is_whole ? "without a chain of hashes" : "not whole";
 }
@@ -110,8 +97,8 @@ nlohmann::ordered_json provenance(const ReportOptions& options, const RunContent
   add("Last hash", contents.chain.head);
   add("Checked", std::string{state_of(contents)});
   for (const std::string& repair : contents.repairs) add("Incomplete", repair);
-  add("Recorded",
-      fmt::format("{}, {:.1f} s", date_of(contents.first), to_seconds(contents.last - contents.first)));
+  add("Recorded", fmt::format("{}, {:.1f} s", date_of(contents.first),
+                              to_seconds(contents.last - contents.first)));
   add("Deployment", of_deployment("deployment"));
   add("Version", of_deployment("version"));
   add("Fingerprint", of_deployment("fingerprint"));

@@ -170,10 +170,7 @@ double Printed::last_digit() const {
 Declaration read_declaration(const config::Node& file) {
   Problems problems;
   MapReader map{file, "paper", kFileKeys, problems};
-  Declaration declaration{.paper = map.text("paper"),
-                          .numbers = config::Node::null(file.origin()),
-                          .tables = {},
-                          .figures = {}};
+  Declaration declaration{.paper = map.text("paper"), .numbers = config::Node::null(file.origin())};
   if (const config::Node* numbers = map.node("numbers")) declaration.numbers = *numbers;
   if (const config::Node* tables = map.node("tables")) {
     for (const config::Node& table : tables->items()) {

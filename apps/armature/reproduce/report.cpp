@@ -82,13 +82,9 @@ std::string csv_of(const DeclaredFigure& figure, const std::vector<Results::Curv
 }
 
 plot::Chart chart_of(const DeclaredFigure& figure, const std::vector<Results::Curve>& curves) {
-  plot::Chart chart{.title = figure.title,
-                    .legend = {},
-                    .x = {.label = figure.x},
-                    .panels = {},
-                    .is_equal = figure.is_equal};
+  plot::Chart chart{.title = figure.title, .x = {.label = figure.x}, .is_equal = figure.is_equal};
   for (const std::string& label : figure.panels) {
-    chart.panels.push_back({.y = {.label = label}, .curves = {}});
+    chart.panels.push_back({.y = {.label = label}});
   }
   std::map<std::string, std::size_t> places;  // in the legend
   for (const Results::Curve& curve : curves) {

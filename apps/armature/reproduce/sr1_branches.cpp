@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SR-1, the arm alone: forward kinematics, all branches of the inverse, and both after each other.
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <random>
 #include <string>

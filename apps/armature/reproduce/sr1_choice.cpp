@@ -3,7 +3,6 @@
 // joints and without.
 #include <Eigen/SVD>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>

@@ -97,7 +97,7 @@ class Head {
     std::normal_distribution<double> noise{0, marker_error_m / std::sqrt(3.0)};
     const MarkerPairs markers = exact(method);
     const Registration truth = registrar(method).find(markers).value();
-    Trials trials{.tre_mm = std::vector<std::vector<double>>(targets.size()), .fre_mm = {}};
+    Trials trials{.tre_mm = std::vector<std::vector<double>>(targets.size())};
     for (int n = 0; n < count; ++n) {
       MarkerPairs measured = markers;
       for (Vector3d& marker : measured.robot) {

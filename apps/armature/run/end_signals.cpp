@@ -9,7 +9,6 @@
 #include <array>
 #include <atomic>
 #include <csignal>
-#include <cstring>
 #include <string_view>
 #include <vector>
 
@@ -53,14 +52,10 @@ using Text = InlineText<160>;
 /// In a signal handler, too: without memory of its own.
 Text text_of(int signal) {
   switch (signal) {
-    case SIGINT:
-      return "interrupted";
-    case SIGTERM:
-      return "terminated";
-    case SIGHUP:
-      return "the terminal was closed";
-    default:
-      break;
+    case SIGINT: return "interrupted";
+    case SIGTERM: return "terminated";
+    case SIGHUP: return "the terminal was closed";
+    default: break;
   }
   if (const char* name = sigabbrev_np(signal)) return Text::format("ended by SIG{}", name);
   return Text::format("ended by signal {}", signal);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -103,7 +102,7 @@ void add_joint_reports(DeploymentConfig& deployment, const PluginRegistry& plugi
   }
   config::Problems problems;
   for (const Node::Entry& entry : entries) {
-    deployment.executors.push_back({.name = entry.key, .period = {}, .cpu = {}});
+    deployment.executors.push_back({.name = entry.key, .period = {}});
     auto report = ComponentReader{deployment, plugins, problems}.read(entry);
     if (!report) continue;
     report->on_fault = OnFault::isolate;

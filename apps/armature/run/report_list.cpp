@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <utility>
 
 #include "armature/recording/hash_chain.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"

@@ -61,12 +61,9 @@ void begin_report(const std::filesystem::path& folder) {
 /// Of a run that did not begin.
 std::string_view status_of(const std::exception& error) {
   switch (exit_code_of(error)) {
-    case kInvalidConfig:
-      return "invalid_config";
-    case kUnusablePlugin:
-      return "unusable_plugin";
-    default:
-      return "not_started";
+    case kInvalidConfig: return "invalid_config";
+    case kUnusablePlugin: return "unusable_plugin";
+    default: return "not_started";
   }
 }
 

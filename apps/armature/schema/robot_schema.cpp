@@ -3,7 +3,6 @@
 
 #include <nlohmann/json.hpp>
 #include <utility>
-#include <vector>
 
 #include "armature/robot/files/robot_keys.hpp"
 #include "armature/robot/files/stereo_rig.hpp"

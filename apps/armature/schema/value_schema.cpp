@@ -42,21 +42,16 @@ Json type_schema(const config::KeySpec& key, double scale) {
       schema = scalar_schema(key.type == Type::number ? "number" : "integer");
       add_limits(schema, key, scale);
       return schema;
-    case Type::flag:
-      return scalar_schema("boolean");
+    case Type::flag: return scalar_schema("boolean");
     case Type::text:
-    case Type::file:
-      return text_schema("");
-    case Type::choice:
-      return word_schema(key.choices, "");
+    case Type::file: return text_schema("");
+    case Type::choice: return word_schema(key.choices, "");
     case Type::numbers:
       schema = scalar_schema("number");
       add_limits(schema, key, scale);
       return list_schema(std::move(schema), key.count);
-    case Type::texts:
-      return list_schema(text_schema(""), key.count);
-    case Type::section:
-      break;
+    case Type::texts: return list_schema(text_schema(""), key.count);
+    case Type::section: break;
   }
   return schema;
 }
@@ -64,22 +59,15 @@ Json type_schema(const config::KeySpec& key, double scale) {
 Json value_of(const config::KeySpec& key, const config::Node& node) {
   const auto as_json = [](auto value) { return value ? Json(*value) : Json(); };
   switch (key.type) {
-    case Type::number:
-      return as_json(config::to_number(node));
-    case Type::integer:
-      return as_json(config::to_integer(node));
-    case Type::flag:
-      return as_json(config::to_flag(node));
-    case Type::numbers:
-      return as_json(config::to_numbers(node, key.count));
-    case Type::texts:
-      return as_json(config::to_texts(node));
+    case Type::number: return as_json(config::to_number(node));
+    case Type::integer: return as_json(config::to_integer(node));
+    case Type::flag: return as_json(config::to_flag(node));
+    case Type::numbers: return as_json(config::to_numbers(node, key.count));
+    case Type::texts: return as_json(config::to_texts(node));
     case Type::text:
     case Type::file:
-    case Type::choice:
-      return as_json(config::to_text(node));
-    case Type::section:
-      break;
+    case Type::choice: return as_json(config::to_text(node));
+    case Type::section: break;
   }
   return {};
 }

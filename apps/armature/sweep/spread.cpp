@@ -20,16 +20,11 @@ constexpr double kTwoSided95 = 1.959963984540054;  // of a normal distribution
 
 double statistic_of(const Spread& spread, const SweepGoal& goal) {
   switch (goal.statistic) {
-    case SweepGoal::Statistic::median:
-      return spread.median();
-    case SweepGoal::Statistic::p95:
-      return spread.p95();
-    case SweepGoal::Statistic::max:
-      return spread.max();
-    case SweepGoal::Statistic::rms:
-      return spread.rms();
-    case SweepGoal::Statistic::share:
-      break;
+    case SweepGoal::Statistic::median: return spread.median();
+    case SweepGoal::Statistic::p95: return spread.p95();
+    case SweepGoal::Statistic::max: return spread.max();
+    case SweepGoal::Statistic::rms: return spread.rms();
+    case SweepGoal::Statistic::share: break;
   }
   return spread.share_at_most(goal.share_of);
 }
@@ -138,11 +133,7 @@ bool RunSpread::is_ok() const {
 
 RunSpread spread_of(const std::vector<SeedReport>& reports, const DeploymentConfig& config,
                     std::vector<std::string> variation) {
-  RunSpread all{.variation = std::move(variation),
-                .figures = figures_of(reports),
-                .statuses = {},
-                .failed = {},
-                .goals = {}};
+  RunSpread all{.variation = std::move(variation), .figures = figures_of(reports), .failed = {}};
   for (Spread& spread : all.figures) {
     const auto goal = std::ranges::find(config.goals, spread.figure, &Goal::metric);
     if (goal != config.goals.end()) spread.goal = goal->limit;

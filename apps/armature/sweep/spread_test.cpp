@@ -54,7 +54,7 @@ TEST_F(SpreadTest, TellsMedianP95GreatestAndRms) {
 
 TEST_F(SpreadTest, AGoalOfOneRunIsCountedAndDoesNotDecideWhereThereAreSweepGoals) {
   add_runs(100);
-  config_.goals = {{.metric = "error_mm", .limit = 90, .origin = {}, .limit_origin = {}}};
+  config_.goals = {{.metric = "error_mm", .limit = 90, .origin = {}}};
   for (std::size_t i = 90; i < 100; ++i) reports_[i]["status"] = "goals_missed";
   EXPECT_EQ(spread().figures.at(0).met, 90u);
   EXPECT_FALSE(spread().is_ok()) << "without sweep goals every run must be ok";
@@ -108,7 +108,7 @@ TEST_F(SpreadTest, ARunThatAFigureDoesNotApplyToIsNotCounted) {
   reports_.push_back(without);
   ask(Statistic::max, {}, 3);
   ask(Statistic::share, 1, {}, 3);
-  config_.goals = {{.metric = "error_mm", .limit = 3, .origin = {}, .limit_origin = {}}};
+  config_.goals = {{.metric = "error_mm", .limit = 3, .origin = {}}};
   const RunSpread told = spread();
   EXPECT_TRUE(told.is_ok());
   EXPECT_EQ(told.figures.at(0).runs(), 3u);

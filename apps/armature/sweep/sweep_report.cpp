@@ -127,8 +127,7 @@ plot::Curve histogram_of(const std::vector<double>& sorted, double low, double h
 }
 
 plot::Chart chart_of(const std::string& figure, const std::vector<RunSpread>& spreads) {
-  plot::Chart chart{
-      .title = "Runs by " + figure, .legend = {}, .x = {.label = figure}, .panels = {}};
+  plot::Chart chart{.title = "Runs by " + figure, .x = {.label = figure}};
   plot::Panel& panel = chart.panels.emplace_back();
   panel.y.label = "runs";
   std::vector<std::pair<std::string, const Spread*>> curves;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <string>
 
 #include "reproduce/reproduce.hpp"
 #include "verbs/verbs.hpp"

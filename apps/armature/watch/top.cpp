@@ -96,74 +96,42 @@ class LiveTable {
     if (types_) return type(pressed);
     const std::size_t page = screen_.room();
     switch (pressed.key) {
-      case Key::quit:
-        quits_ = true;
-        return;
-      case Key::help:
-        helps_ = !helps_;
-        return;
-      case Key::up:
-        first_ -= std::min<std::size_t>(first_, 1);
-        return;
-      case Key::down:
-        ++first_;
-        return;
-      case Key::page_up:
-        first_ -= std::min(first_, page);
-        return;
-      case Key::page_down:
-        first_ += page;
-        return;
-      case Key::home:
-        first_ = 0;
-        return;
-      case Key::end:
-        first_ = lines_.size();
-        return;
+      case Key::quit: quits_ = true; return;
+      case Key::help: helps_ = !helps_; return;
+      case Key::up: first_ -= std::min<std::size_t>(first_, 1); return;
+      case Key::down: ++first_; return;
+      case Key::page_up: first_ -= std::min(first_, page); return;
+      case Key::page_down: first_ += page; return;
+      case Key::home: first_ = 0; return;
+      case Key::end: first_ = lines_.size(); return;
       case Key::filter:
         view_.filter.clear();
         types_ = true;
         return;
-      case Key::other:
-        return take_letter(pressed.letter);
+      case Key::other: return take_letter(pressed.letter);
       case Key::none:
       case Key::erase:
       case Key::enter:
-      case Key::escape:
-        helps_ = false;
+      case Key::escape: helps_ = false;
     }
   }
 
   void take_letter(char letter) {
     switch (letter) {
-      case 'P':
-        return sort(TopOrder::processor);
-      case 'T':
-        return sort(TopOrder::step);
-      case 'L':
-        return sort(TopOrder::lateness);
-      case 'D':
-        return sort(TopOrder::dropped);
-      case 'S':
-        return sort(TopOrder::state);
-      case 'N':
-        return sort(TopOrder::name);
-      case 'G':
-        return sort(TopOrder::graph);
-      case 'I':
-        view_.reversed = !view_.reversed;
-        return;
+      case 'P': return sort(TopOrder::processor);
+      case 'T': return sort(TopOrder::step);
+      case 'L': return sort(TopOrder::lateness);
+      case 'D': return sort(TopOrder::dropped);
+      case 'S': return sort(TopOrder::state);
+      case 'N': return sort(TopOrder::name);
+      case 'G': return sort(TopOrder::graph);
+      case 'I': view_.reversed = !view_.reversed; return;
       case 'Z':
       case 'z':
-      case ' ':
-        stands_ = !stands_;
-        return;
+      case ' ': stands_ = !stands_; return;
       case 'h':
-      case '?':
-        helps_ = !helps_;
-        return;
-      default:
-        return;
+      case '?': helps_ = !helps_; return;
+      default: return;
     }
   }
 

@@ -60,43 +60,27 @@ TopScreen::~TopScreen() { endwin(); }
 TopScreen::Pressed TopScreen::pressed() const {
   constexpr int kEscape = 27, kDelete = 127;
   switch (const int key = getch()) {
-    case ERR:
-      return {};
-    case KEY_F(10):
-      return {Key::quit};
-    case 'q':
-      return {Key::quit, 'q'};
-    case KEY_F(1):
-      return {Key::help};
-    case KEY_F(4):
-      return {Key::filter};
+    case ERR: return {};
+    case KEY_F(10): return {Key::quit};
+    case 'q': return {Key::quit, 'q'};
+    case KEY_F(1): return {Key::help};
+    case KEY_F(4): return {Key::filter};
     case '/':
-    case '\\':
-      return {Key::filter, static_cast<char>(key)};
-    case KEY_UP:
-      return {Key::up};
-    case KEY_DOWN:
-      return {Key::down};
-    case KEY_PPAGE:
-      return {Key::page_up};
-    case KEY_NPAGE:
-      return {Key::page_down};
-    case KEY_HOME:
-      return {Key::home};
-    case KEY_END:
-      return {Key::end};
+    case '\\': return {Key::filter, static_cast<char>(key)};
+    case KEY_UP: return {Key::up};
+    case KEY_DOWN: return {Key::down};
+    case KEY_PPAGE: return {Key::page_up};
+    case KEY_NPAGE: return {Key::page_down};
+    case KEY_HOME: return {Key::home};
+    case KEY_END: return {Key::end};
     case KEY_BACKSPACE:
     case kDelete:
-    case '\b':
-      return {Key::erase};
+    case '\b': return {Key::erase};
     case '\n':
     case '\r':
-    case KEY_ENTER:
-      return {Key::enter};
-    case kEscape:
-      return {Key::escape};
-    default:
-      return {Key::other, key >= ' ' && key < kDelete ? static_cast<char>(key) : '\0'};
+    case KEY_ENTER: return {Key::enter};
+    case kEscape: return {Key::escape};
+    default: return {Key::other, key >= ' ' && key < kDelete ? static_cast<char>(key) : '\0'};
   }
 }
 

@@ -80,20 +80,13 @@ std::vector<Row> rows_of(const SeenDeployment& deployment, Time now) {
 bool is_before(const Row& a, const Row& b, TopOrder order) {
   const msg::ComponentState &left = a.told(), &right = b.told();
   switch (order) {
-    case TopOrder::graph:
-      return a.place < b.place;
-    case TopOrder::name:
-      return left.component_() < right.component_();
-    case TopOrder::state:
-      return left.state_() > right.state_();
-    case TopOrder::processor:
-      return a.processor > b.processor;
-    case TopOrder::step:
-      return left.step_().p99_() > right.step_().p99_();
-    case TopOrder::lateness:
-      return left.lateness_().p99_() > right.lateness_().p99_();
-    case TopOrder::dropped:
-      return left.dropped_() > right.dropped_();
+    case TopOrder::graph: return a.place < b.place;
+    case TopOrder::name: return left.component_() < right.component_();
+    case TopOrder::state: return left.state_() > right.state_();
+    case TopOrder::processor: return a.processor > b.processor;
+    case TopOrder::step: return left.step_().p99_() > right.step_().p99_();
+    case TopOrder::lateness: return left.lateness_().p99_() > right.lateness_().p99_();
+    case TopOrder::dropped: return left.dropped_() > right.dropped_();
   }
   return false;
 }

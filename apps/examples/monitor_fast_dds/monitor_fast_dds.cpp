@@ -10,7 +10,6 @@
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
 #include <fastdds/dds/domain/DomainParticipantFactory.hpp>
 #include <fastdds/dds/subscriber/DataReader.hpp>
@@ -20,7 +19,6 @@
 #include <span>
 #include <string>
 #include <thread>
-#include <vector>
 
 namespace fast_dds = eprosima::fastdds::dds;
 namespace msg = armature::msg;

@@ -79,7 +79,7 @@ Expected<ServerAddress> read_server_address(std::string_view text) {
 Expected<Network> find_network(const NetworkOptions& options) {
   auto joined = find_interfaces(options.interfaces);
   if (!joined) return tl::unexpected{joined.error()};
-  Network network{.joined = std::move(*joined), .peers = {}, .server = {}};
+  Network network{.joined = std::move(*joined)};
   for (const std::string& peer : options.peers) {
     auto address = reachable_address(peer, "peer", network.joined);
     if (!address) return tl::unexpected{address.error()};

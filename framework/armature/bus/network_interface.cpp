@@ -88,7 +88,6 @@ std::vector<NetworkInterface> network_interfaces() {
     auto known = std::ranges::find(all, one->ifa_name, &NetworkInterface::name);
     if (known == all.end()) {
       known = all.insert(known, {.name = one->ifa_name,
-                                 .addresses = {},
                                  .up = (one->ifa_flags & IFF_UP) != 0,
                                  .has_link = (one->ifa_flags & IFF_RUNNING) != 0});
     }

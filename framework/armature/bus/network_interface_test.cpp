@@ -14,7 +14,7 @@ const std::vector<NetworkInterface> kMachine{
     {.name = "eth0", .addresses = {"192.168.7.2", "10.0.0.5"}, .up = true, .has_link = true},
     {.name = "eth1", .addresses = {"192.168.8.2"}, .up = false, .has_link = false},
     {.name = "eth2", .addresses = {"192.168.9.2"}, .up = true, .has_link = false},
-    {.name = "tap0", .addresses = {}, .up = true, .has_link = true}};
+    {.name = "tap0", .up = true, .has_link = true}};
 
 std::string joined(const std::vector<std::string>& wanted) {
   const auto found = find_interfaces(wanted, kMachine);

@@ -38,19 +38,15 @@ QosSettings settings(QosProfile profile) {
               .depth = 2,
               .heartbeat = seconds(0.02),
               .repair_delay = seconds(0.0005)};
-    case QosProfile::state:
-      return {.depth = 10};
+    case QosProfile::state: return {.depth = 10};
     case QosProfile::command:
       return {.depth = 10,
               .lifespan = seconds(0.5),
               .liveliness_lease = seconds(0.5),
               .heartbeat = seconds(0.02)};
-    case QosProfile::reply:
-      return {.transient_local = true, .depth = 10, .lifespan = seconds(5)};
-    case QosProfile::latched:
-      return {.transient_local = true, .depth = 1};
-    case QosProfile::log:
-      return {.transient_local = true, .depth = 100};
+    case QosProfile::reply: return {.transient_local = true, .depth = 10, .lifespan = seconds(5)};
+    case QosProfile::latched: return {.transient_local = true, .depth = 1};
+    case QosProfile::log: return {.transient_local = true, .depth = 100};
   }
   return {};
 }

@@ -37,15 +37,13 @@ Node on_line(const Node& node, int line) {
       null.set_text(node.text());
       return null;
     }
-    case Node::Kind::scalar:
-      return Node::scalar(node.text(), node.quoted(), there(node.origin()));
+    case Node::Kind::scalar: return Node::scalar(node.text(), node.quoted(), there(node.origin()));
     case Node::Kind::sequence: {
       std::vector<Node> items;
       for (const Node& item : node.items()) items.push_back(on_line(item, line));
       return Node::sequence(std::move(items), there(node.origin()));
     }
-    case Node::Kind::map:
-      break;
+    case Node::Kind::map: break;
   }
   std::vector<Node::Entry> entries;
   for (const Node::Entry& entry : node.entries()) {

@@ -285,20 +285,11 @@ std::string mutated(std::string text, std::mt19937& random) {
     const std::size_t at = below(text.size());
     const std::size_t length = 1 + below(12);
     switch (below(5)) {
-      case 0:
-        text[at] = kAlphabet[below(kAlphabet.size())];
-        break;
-      case 1:
-        text.insert(at, 1, kAlphabet[below(kAlphabet.size())]);
-        break;
-      case 2:
-        text.erase(at, length);
-        break;
-      case 3:
-        text.insert(below(text.size()), text.substr(at, length));
-        break;
-      default:
-        text.resize(at);
+      case 0: text[at] = kAlphabet[below(kAlphabet.size())]; break;
+      case 1: text.insert(at, 1, kAlphabet[below(kAlphabet.size())]); break;
+      case 2: text.erase(at, length); break;
+      case 3: text.insert(below(text.size()), text.substr(at, length)); break;
+      default: text.resize(at);
     }
   }
   return text;

@@ -120,45 +120,30 @@ Converted<Value> to_value(const KeySpec& key, std::string_view written, const No
                           const std::string& folder) {
   const auto as_any = [](auto value) { return Value{std::move(value)}; };
   switch (key.type) {
-    case Type::number:
-      return number_of(key, written, node);
-    case Type::integer:
-      return integer_of(key, node);
-    case Type::flag:
-      return to_flag(node).map(as_any);
-    case Type::text:
-      return to_text(node).map(as_any);
-    case Type::choice:
-      return choice_of(key, node);
-    case Type::numbers:
-      return numbers_of(key, written, node);
-    case Type::texts:
-      return to_texts(node).map(as_any);
-    case Type::file:
-      return file_of(node, folder);
-    case Type::section:
-      break;
+    case Type::number: return number_of(key, written, node);
+    case Type::integer: return integer_of(key, node);
+    case Type::flag: return to_flag(node).map(as_any);
+    case Type::text: return to_text(node).map(as_any);
+    case Type::choice: return choice_of(key, node);
+    case Type::numbers: return numbers_of(key, written, node);
+    case Type::texts: return to_texts(node).map(as_any);
+    case Type::file: return file_of(node, folder);
+    case Type::section: break;
   }
   return Value{};
 }
 
 Value zero_of(Type type) {
   switch (type) {
-    case Type::integer:
-      return std::int64_t{0};
-    case Type::flag:
-      return false;
+    case Type::integer: return std::int64_t{0};
+    case Type::flag: return false;
     case Type::text:
     case Type::choice:
-    case Type::file:
-      return std::string{};
-    case Type::numbers:
-      return std::vector<double>{};
-    case Type::texts:
-      return std::vector<std::string>{};
+    case Type::file: return std::string{};
+    case Type::numbers: return std::vector<double>{};
+    case Type::texts: return std::vector<std::string>{};
     case Type::number:
-    case Type::section:
-      break;
+    case Type::section: break;
   }
   return 0.0;
 }

@@ -43,14 +43,10 @@ Node Node::map(std::vector<Entry> entries, Origin origin) {
 
 std::string Node::describe() const {
   switch (kind_) {
-    case Kind::null:
-      return "nothing";
-    case Kind::scalar:
-      return in_quotes(text_);
-    case Kind::sequence:
-      return "a list";
-    case Kind::map:
-      return "a map";
+    case Kind::null: return "nothing";
+    case Kind::scalar: return in_quotes(text_);
+    case Kind::sequence: return "a list";
+    case Kind::map: return "a map";
   }
   return "";
 }

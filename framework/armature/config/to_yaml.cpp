@@ -58,14 +58,10 @@ std::string scalar_text(const std::string& text, bool quoted) {
 /// A node that stands on one line, or nothing.
 std::string inline_text(const Node& node) {
   switch (node.kind()) {
-    case Node::Kind::null:
-      return "null";
-    case Node::Kind::scalar:
-      return scalar_text(node.text(), node.quoted());
-    case Node::Kind::map:
-      return node.entries().empty() ? "{}" : "";
-    case Node::Kind::sequence:
-      break;
+    case Node::Kind::null: return "null";
+    case Node::Kind::scalar: return scalar_text(node.text(), node.quoted());
+    case Node::Kind::map: return node.entries().empty() ? "{}" : "";
+    case Node::Kind::sequence: break;
   }
   std::string list = "[";
   for (const Node& item : node.items()) {

@@ -83,9 +83,8 @@ class RegistrationDialogueTest : public ::testing::Test {
   }
 
   PluginRegistry plugins_ = with_both();
-  ComponentHarness task_{plugins_, {.component = "{plugin: test/asks}", .robot = {}, .rig = {}}};
-  ComponentHarness watcher_{plugins_,
-                            {.component = "{plugin: test/watches}", .robot = {}, .rig = {}}};
+  ComponentHarness task_{plugins_, {.component = "{plugin: test/asks}", .robot = {}}};
+  ComponentHarness watcher_{plugins_, {.component = "{plugin: test/watches}", .robot = {}}};
 };
 
 TEST_F(RegistrationDialogueTest, AsksAgainUnderANewNumberWhenNobodyAnswersWithinASecond) {

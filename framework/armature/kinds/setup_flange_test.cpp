@@ -9,8 +9,8 @@ namespace armature {
 namespace {
 
 RobotModel robot_with(std::vector<NamedFrame> frames, int tool) {
-  Joint first{.name = "a", .coupling = {}, .placement = {}};
-  Joint second{.name = "b", .a = 0.3, .coupling = {}, .placement = {}};
+  Joint first{.name = "a"};
+  Joint second{.name = "b", .a = 0.3};
   return RobotModel{{"stick",
                      RobotModel::Convention::standard,
                      {first, second},

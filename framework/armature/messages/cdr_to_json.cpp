@@ -46,32 +46,19 @@ class Converter {
 
   Json element(const FieldDescription& field) {
     switch (field.kind) {
-      case FieldKind::boolean:
-        return reader_.number<std::uint8_t>() != 0;
-      case FieldKind::octet:
-        return reader_.number<std::uint8_t>();
-      case FieldKind::int8:
-        return reader_.number<std::int8_t>();
-      case FieldKind::int16:
-        return reader_.number<std::int16_t>();
-      case FieldKind::uint16:
-        return reader_.number<std::uint16_t>();
-      case FieldKind::int32:
-        return reader_.number<std::int32_t>();
-      case FieldKind::uint32:
-        return reader_.number<std::uint32_t>();
-      case FieldKind::int64:
-        return reader_.number<std::int64_t>();
-      case FieldKind::uint64:
-        return reader_.number<std::uint64_t>();
-      case FieldKind::float32:
-        return reader_.number<float>();
-      case FieldKind::float64:
-        return reader_.number<double>();
-      case FieldKind::text:
-        return std::string{reader_.text()};
-      case FieldKind::structure:
-        return structure(*field.structure);
+      case FieldKind::boolean: return reader_.number<std::uint8_t>() != 0;
+      case FieldKind::octet: return reader_.number<std::uint8_t>();
+      case FieldKind::int8: return reader_.number<std::int8_t>();
+      case FieldKind::int16: return reader_.number<std::int16_t>();
+      case FieldKind::uint16: return reader_.number<std::uint16_t>();
+      case FieldKind::int32: return reader_.number<std::int32_t>();
+      case FieldKind::uint32: return reader_.number<std::uint32_t>();
+      case FieldKind::int64: return reader_.number<std::int64_t>();
+      case FieldKind::uint64: return reader_.number<std::uint64_t>();
+      case FieldKind::float32: return reader_.number<float>();
+      case FieldKind::float64: return reader_.number<double>();
+      case FieldKind::text: return std::string{reader_.text()};
+      case FieldKind::structure: return structure(*field.structure);
     }
     return nullptr;
   }

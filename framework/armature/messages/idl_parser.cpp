@@ -34,32 +34,20 @@ std::optional<Number> number_of(std::string_view text) {
 /// Whether `text` is a number that a constant of this kind may have.
 bool is_value(FieldKind kind, std::string_view text) {
   switch (kind) {
-    case FieldKind::boolean:
-      return text == "TRUE" || text == "FALSE";
-    case FieldKind::octet:
-      return number_of<std::uint8_t>(text).has_value();
-    case FieldKind::int8:
-      return number_of<std::int8_t>(text).has_value();
-    case FieldKind::int16:
-      return number_of<std::int16_t>(text).has_value();
-    case FieldKind::uint16:
-      return number_of<std::uint16_t>(text).has_value();
-    case FieldKind::int32:
-      return number_of<std::int32_t>(text).has_value();
-    case FieldKind::uint32:
-      return number_of<std::uint32_t>(text).has_value();
-    case FieldKind::int64:
-      return number_of<std::int64_t>(text).has_value();
-    case FieldKind::uint64:
-      return number_of<std::uint64_t>(text).has_value();
-    case FieldKind::float32:
-      return number_of<float>(text).has_value();
-    case FieldKind::float64:
-      return number_of<double>(text).has_value();
+    case FieldKind::boolean: return text == "TRUE" || text == "FALSE";
+    case FieldKind::octet: return number_of<std::uint8_t>(text).has_value();
+    case FieldKind::int8: return number_of<std::int8_t>(text).has_value();
+    case FieldKind::int16: return number_of<std::int16_t>(text).has_value();
+    case FieldKind::uint16: return number_of<std::uint16_t>(text).has_value();
+    case FieldKind::int32: return number_of<std::int32_t>(text).has_value();
+    case FieldKind::uint32: return number_of<std::uint32_t>(text).has_value();
+    case FieldKind::int64: return number_of<std::int64_t>(text).has_value();
+    case FieldKind::uint64: return number_of<std::uint64_t>(text).has_value();
+    case FieldKind::float32: return number_of<float>(text).has_value();
+    case FieldKind::float64: return number_of<double>(text).has_value();
     case FieldKind::text:
       return text.size() >= 2 && text.front() == '"' && text.find('\\') == std::string_view::npos;
-    case FieldKind::structure:
-      return false;
+    case FieldKind::structure: return false;
   }
   return false;
 }

@@ -11,32 +11,19 @@ namespace {
 
 std::string_view ros_kind(FieldKind kind) {
   switch (kind) {
-    case FieldKind::boolean:
-      return "bool";
-    case FieldKind::octet:
-      return "uint8";
-    case FieldKind::int8:
-      return "int8";
-    case FieldKind::int16:
-      return "int16";
-    case FieldKind::uint16:
-      return "uint16";
-    case FieldKind::int32:
-      return "int32";
-    case FieldKind::uint32:
-      return "uint32";
-    case FieldKind::int64:
-      return "int64";
-    case FieldKind::uint64:
-      return "uint64";
-    case FieldKind::float32:
-      return "float32";
-    case FieldKind::float64:
-      return "float64";
-    case FieldKind::text:
-      return "string";
-    case FieldKind::structure:
-      break;
+    case FieldKind::boolean: return "bool";
+    case FieldKind::octet: return "uint8";
+    case FieldKind::int8: return "int8";
+    case FieldKind::int16: return "int16";
+    case FieldKind::uint16: return "uint16";
+    case FieldKind::int32: return "int32";
+    case FieldKind::uint32: return "uint32";
+    case FieldKind::int64: return "int64";
+    case FieldKind::uint64: return "uint64";
+    case FieldKind::float32: return "float32";
+    case FieldKind::float64: return "float64";
+    case FieldKind::text: return "string";
+    case FieldKind::structure: break;
   }
   return "";
 }

@@ -36,28 +36,19 @@ class RandomCdr {
   }
   void element(const FieldDescription& field) {
     switch (field.kind) {
-      case FieldKind::boolean:
-        return number(static_cast<std::uint8_t>(random_() % 2));
+      case FieldKind::boolean: return number(static_cast<std::uint8_t>(random_() % 2));
       case FieldKind::octet:
-      case FieldKind::int8:
-        return number(static_cast<std::uint8_t>(random_()));
+      case FieldKind::int8: return number(static_cast<std::uint8_t>(random_()));
       case FieldKind::int16:
-      case FieldKind::uint16:
-        return number(static_cast<std::uint16_t>(random_()));
+      case FieldKind::uint16: return number(static_cast<std::uint16_t>(random_()));
       case FieldKind::int32:
-      case FieldKind::uint32:
-        return number(static_cast<std::uint32_t>(random_()));
+      case FieldKind::uint32: return number(static_cast<std::uint32_t>(random_()));
       case FieldKind::int64:
-      case FieldKind::uint64:
-        return number(std::uint64_t{random_()} << 20 | random_());
-      case FieldKind::float32:
-        return number(static_cast<float>(random_()) * 1e-3F);
-      case FieldKind::float64:
-        return number(static_cast<double>(random_()) * 1e-3);
-      case FieldKind::text:
-        return text();
-      case FieldKind::structure:
-        return structure(*field.structure);
+      case FieldKind::uint64: return number(std::uint64_t{random_()} << 20 | random_());
+      case FieldKind::float32: return number(static_cast<float>(random_()) * 1e-3F);
+      case FieldKind::float64: return number(static_cast<double>(random_()) * 1e-3);
+      case FieldKind::text: return text();
+      case FieldKind::structure: return structure(*field.structure);
     }
   }
   void text() {

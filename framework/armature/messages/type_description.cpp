@@ -6,32 +6,19 @@ namespace {
 
 std::string_view kind_name(FieldKind kind) {
   switch (kind) {
-    case FieldKind::boolean:
-      return "boolean";
-    case FieldKind::octet:
-      return "octet";
-    case FieldKind::int8:
-      return "int8";
-    case FieldKind::int16:
-      return "int16";
-    case FieldKind::uint16:
-      return "uint16";
-    case FieldKind::int32:
-      return "int32";
-    case FieldKind::uint32:
-      return "uint32";
-    case FieldKind::int64:
-      return "int64";
-    case FieldKind::uint64:
-      return "uint64";
-    case FieldKind::float32:
-      return "float32";
-    case FieldKind::float64:
-      return "float64";
-    case FieldKind::text:
-      return "string";
-    case FieldKind::structure:
-      return "struct";
+    case FieldKind::boolean: return "boolean";
+    case FieldKind::octet: return "octet";
+    case FieldKind::int8: return "int8";
+    case FieldKind::int16: return "int16";
+    case FieldKind::uint16: return "uint16";
+    case FieldKind::int32: return "int32";
+    case FieldKind::uint32: return "uint32";
+    case FieldKind::int64: return "int64";
+    case FieldKind::uint64: return "uint64";
+    case FieldKind::float32: return "float32";
+    case FieldKind::float64: return "float64";
+    case FieldKind::text: return "string";
+    case FieldKind::structure: return "struct";
   }
   return "";
 }
@@ -55,22 +42,17 @@ std::size_t smallest_size(const FieldDescription& field) {
   switch (field.kind) {
     case FieldKind::boolean:
     case FieldKind::octet:
-    case FieldKind::int8:
-      return 1;
+    case FieldKind::int8: return 1;
     case FieldKind::int16:
-    case FieldKind::uint16:
-      return 2;
+    case FieldKind::uint16: return 2;
     case FieldKind::int32:
     case FieldKind::uint32:
     case FieldKind::float32:
-    case FieldKind::text:
-      return 4;
+    case FieldKind::text: return 4;
     case FieldKind::int64:
     case FieldKind::uint64:
-    case FieldKind::float64:
-      return 8;
-    case FieldKind::structure:
-      return field.structure->smallest_size;
+    case FieldKind::float64: return 8;
+    case FieldKind::structure: return field.structure->smallest_size;
   }
   return 1;
 }

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 #include <openssl/sha.h>
 
-#include <algorithm>
 #include <fstream>
 #include <string>
 

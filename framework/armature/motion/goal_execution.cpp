@@ -26,12 +26,10 @@ bool is_planned(MotionMode mode) {
     case MotionMode::planned:
     case MotionMode::pause:
     case MotionMode::resume:
-    case MotionMode::retrace:
-      return true;
+    case MotionMode::retrace: return true;
     case MotionMode::tracking:
     case MotionMode::hold:
-    case MotionMode::guided:
-      return false;
+    case MotionMode::guided: return false;
   }
   return false;
 }
@@ -287,11 +285,9 @@ void GoalExecution::take(const MotionGoal& goal, const ReasonText& wrong, Time n
     case MotionMode::retrace:
       return ask_for_plan({.goal_id = goal.id, .mode = goal.mode, .budget = options_.plan_budget},
                           now);
-    case MotionMode::tracking:
-      return track(goal, now);
+    case MotionMode::tracking: return track(goal, now);
     case MotionMode::hold:
-    case MotionMode::guided:
-      return stop_for(goal.id, goal.mode, now);
+    case MotionMode::guided: return stop_for(goal.id, goal.mode, now);
   }
 }
 
@@ -441,7 +437,6 @@ std::optional<GoalStatus> GoalExecution::current(Time now) const {
   if (!active_) return last_while_resting();
   return GoalStatus{.goal_id = *active_,
                     .state = State::executing,
-                    .stage = {},
                     .reason = active_mode_ == MotionMode::tracking ? behind_ : ReasonText{},
                     .remaining_s = std::max(0.0, to_seconds(reference_.end() - now)),
                     .stops_ahead = stops_ahead_};

@@ -25,7 +25,7 @@ tl::unexpected<PlanFailure> fail(std::string stage, std::string reason) {
 /// The tool's pose at `q`, told in the same way as `like`: a direction or a rotation.
 ToolPose pose_at(const RobotModel& model, const JointVector& q, const ToolPose& like) {
   const Eigen::Isometry3d base_T_tool = forward_kinematics(model, q);
-  ToolPose pose{.position = base_T_tool.translation(), .orientation = {}};
+  ToolPose pose{.position = base_T_tool.translation()};
   if (std::holds_alternative<Direction>(like.orientation)) {
     const Eigen::Vector3d axis = model.pointing_axis().value_or(Eigen::Vector3d::UnitX());
     pose.orientation = Direction{base_T_tool.linear() * axis};

@@ -56,7 +56,6 @@ inline ComponentHarness::Options motion_with(const std::string& params,
                        "}, path: {plugin: path/line}, ik: {plugin: ik/gantry}, "
                        "select: {plugin: select/first}, trajectory: {plugin: trajectory/one}}",
           .robot = gantry_file(),
-          .rig = {},
           .unit = std::string{unit},
           .written = std::move(written)};
 }

@@ -7,7 +7,6 @@
 #include <limits>
 #include <set>
 #include <string_view>
-#include <utility>
 
 #include "armature/motion/limit_margin.hpp"
 #include "armature/robot/kinematics/locked_joints.hpp"

@@ -126,7 +126,7 @@ class AnyTarget {
   }
   MotionGoal at(double t) const {
     const double u = omega_ * t;
-    MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}, .focus = {}};
+    MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}};
     goal.pose.position = start_.translation() + cosine_ * (1 - std::cos(u)) + sine_ * std::sin(u);
     goal.pose.orientation = Eigen::Quaterniond{
         start_.linear() * Eigen::AngleAxisd{roll_ * std::sin(u), Vector3d::UnitZ()}};
@@ -204,7 +204,7 @@ TEST_P(Pivoting, TheTipKeepsToATargetThatTheArmCanFollow) {
 TEST_P(Pivoting, ComesToATargetFarAwayAndRollsTheShaftAsItSays) {
   PivotingArm arm{arm_, resting_position(arm_), 0.1, options_};
   const Isometry3d start = arm.pose();
-  MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}, .focus = {}};
+  MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}};
   goal.pose.position = start * Vector3d{0.02, 0.015, 0.01};
   goal.pose.orientation =
       Eigen::Quaterniond{start.linear() * Eigen::AngleAxisd{0.3, Vector3d::UnitZ()}};
@@ -220,7 +220,7 @@ TEST_P(Pivoting, ComesToATargetFarAwayAndRollsTheShaftAsItSays) {
 TEST_P(Pivoting, WaitsAtTheLeastDepthForATipThatShallGoThroughTheIncision) {
   PivotingArm arm{arm_, resting_position(arm_), 0.05, options_};
   const Isometry3d start = arm.pose();
-  MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}, .focus = {}};
+  MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}};
   goal.pose.orientation = Eigen::Quaterniond{start.linear()};
   for (int k = 0; k < 4000; ++k) {
     goal.pose.position = start * Vector3d{0, 0.001, -std::min(0.06, 3e-5 * k)};
@@ -260,7 +260,7 @@ TEST_P(Pivoting, AShaftThatIsALittleBesideComesBackAndGoesNoFurther) {
   centre.point += beside;
   arm.tracker().pivot()->set_incision(centre.point);
   EXPECT_TRUE(arm.tracker().pivot()->refusal(arm.state().q).empty());
-  MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}, .focus = {}};
+  MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}};
   goal.pose = {arm.pose().translation(), Eigen::Quaterniond{arm.pose().linear()}};
   double before = centre.deviation(arm.pose());
   ShortTrajectory way;

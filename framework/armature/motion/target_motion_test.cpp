@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector3d;
 
 MotionGoal target_at(const Vector3d& position, const Vector3d& velocity) {
-  MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}, .focus = {}};
+  MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}};
   goal.pose = {.position = position, .orientation = Direction{Vector3d::UnitX()}};
   goal.velocity = velocity;
   return goal;

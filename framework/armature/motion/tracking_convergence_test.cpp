@@ -34,7 +34,7 @@ struct SwingingTarget {
 
   MotionGoal at(double t) const {
     const double w = 2 * M_PI * hz, c = std::cos(w * t), s = std::sin(w * t);
-    MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}, .focus = {}};
+    MotionGoal goal{.id = 1, .mode = MotionMode::tracking, .pose = {}};
     goal.pose.position = centre.translation() + cosine * c + sine * s;
     goal.velocity = w * (sine * c - cosine * s);
     const Eigen::Quaterniond turned = rotation_of(turn * s) * Eigen::Quaterniond{centre.linear()};

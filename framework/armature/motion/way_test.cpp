@@ -35,7 +35,7 @@ class WaysTest : public ::testing::Test {
     }
   }
   static Plan planned(const Trajectory& trajectory) {
-    return {.path = Path(3), .joint_path = {}, .trajectory = trajectory};
+    return {.path = Path(3), .trajectory = trajectory};
   }
   /// Drives `leg` until `share` of it.
   void drive(const WayLeg& leg, double share = 1) {

@@ -27,9 +27,7 @@ void ChainCheck::take(std::uint8_t op, std::span<const std::byte> body, std::uin
   }
   if (in_summary_) add_to_group(op, end);
   switch (static_cast<Op>(op)) {
-    case Op::header:
-      content_ = "the header";
-      break;
+    case Op::header: content_ = "the header"; break;
     case Op::chunk: {
       content_ = fmt::format("chunk {}", ++chunks_);
       McapCursor cursor{body};
@@ -37,17 +35,10 @@ void ChainCheck::take(std::uint8_t op, std::span<const std::byte> body, std::uin
       last_ = std::max(last_, cursor.time());
       break;
     }
-    case Op::attachment:
-      content_ = "an attachment";
-      break;
-    case Op::metadata:
-      content_ = "metadata";
-      break;
-    case Op::data_end:
-      content_ = "the summary";
-      break;
-    default:
-      break;
+    case Op::attachment: content_ = "an attachment"; break;
+    case Op::metadata: content_ = "metadata"; break;
+    case Op::data_end: content_ = "the summary"; break;
+    default: break;
   }
   skip(end);
 }

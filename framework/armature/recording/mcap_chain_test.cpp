@@ -18,7 +18,6 @@
 namespace armature {
 namespace {
 
-using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::MatchesRegex;
@@ -202,21 +201,13 @@ TEST_P(Chain, OfWhateverIsDoneToAFileTellsAndTakesNoMemory) {
       const std::size_t at = 8 + among(bytes.size() - 8);
       const std::size_t size = std::min(1 + among(64), bytes.size() - at);
       switch (among(5)) {
-        case 0:
-          bytes[at] = static_cast<char>(random());
-          break;
-        case 1:
-          bytes.erase(at, size);
-          break;
-        case 2:
-          bytes.insert(at, bytes.substr(8 + among(bytes.size() - 8), size));
-          break;
+        case 0: bytes[at] = static_cast<char>(random()); break;
+        case 1: bytes.erase(at, size); break;
+        case 2: bytes.insert(at, bytes.substr(8 + among(bytes.size() - 8), size)); break;
         case 3:  // the lengths of records, and what else is a number
           for (std::size_t k = 0; k < std::min(size, std::size_t{8}); ++k) bytes[at + k] = '\xFF';
           break;
-        default:
-          bytes.resize(at + 1);
-          break;
+        default: bytes.resize(at + 1); break;
       }
     }
     if (bytes == whole) continue;

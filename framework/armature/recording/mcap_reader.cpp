@@ -5,7 +5,6 @@
 #include <zlib.h>
 #include <zstd.h>
 
-#include <cstring>
 #include <new>
 #include <stdexcept>
 #include <utility>
@@ -124,27 +123,17 @@ bool McapReader::read_record() {
       body.text();
       library_ = body.text();
       break;
-    case Op::schema:
-      add_schema(body, at);
-      break;
-    case Op::channel:
-      add_channel(body, at);
-      break;
+    case Op::schema: add_schema(body, at); break;
+    case Op::channel: add_channel(body, at); break;
     case Op::message:  // outside of a chunk: as a chunk of its own
       chunk_ = file_.subspan(at, position_ - at);
       chunk_at_ = at;
       has_bounds_ = false;
       messages_of_chunk_ = 0;
       break;
-    case Op::chunk:
-      open_chunk(body, at);
-      break;
-    case Op::attachment:
-      read_attachment(body, at);
-      break;
-    case Op::metadata:
-      read_metadata(body, at);
-      break;
+    case Op::chunk: open_chunk(body, at); break;
+    case Op::attachment: read_attachment(body, at); break;
+    case Op::metadata: read_metadata(body, at); break;
     case Op::data_end: {
       const auto crc = body.number<std::uint32_t>();
       if (crc != 0 && crc != checksum_of(file_.first(at))) {
@@ -154,8 +143,7 @@ bool McapReader::read_record() {
       ended_ = true;
       break;
     }
-    default:
-      break;
+    default: break;
   }
   return true;
 }

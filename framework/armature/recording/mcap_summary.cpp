@@ -122,20 +122,11 @@ std::optional<McapSummary> read_summary(const std::filesystem::path& file) {
         summary.channels[channel.id] = std::move(channel);
         break;
       }
-      case Op::statistics:
-        chunks = read_statistics(record.body, summary);
-        break;
-      case Op::chunk_index:
-        read_chunk_index(record.body, summary);
-        break;
-      case Op::attachment_index:
-        read_attachment_index(record.body, summary);
-        break;
-      case Op::metadata_index:
-        read_metadata_index(record.body, bytes, summary);
-        break;
-      default:
-        break;
+      case Op::statistics: chunks = read_statistics(record.body, summary); break;
+      case Op::chunk_index: read_chunk_index(record.body, summary); break;
+      case Op::attachment_index: read_attachment_index(record.body, summary); break;
+      case Op::metadata_index: read_metadata_index(record.body, bytes, summary); break;
+      default: break;
     }
   }
   if (chunks != summary.chunks) return std::nullopt;

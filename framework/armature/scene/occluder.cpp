@@ -51,17 +51,10 @@ OccluderBody::OccluderBody(Occluder which, const Photo& photo) {
   texture_scale_ = 1 / scale;
   const Eigen::Vector2d eye = (photo.right_eye - photo.mouth) * photo.m_per_px;
   switch (which) {
-    case Occluder::none:
-      break;
-    case Occluder::instrument_over_mouth:
-      add_rod(scale);
-      break;
-    case Occluder::hand_over_mouth:
-      add_hand(Vector3d{0, 0, 0}, scale);
-      break;
-    case Occluder::hand_over_eye:
-      add_hand(Vector3d{eye.x(), eye.y(), 0}, scale);
-      break;
+    case Occluder::none: break;
+    case Occluder::instrument_over_mouth: add_rod(scale); break;
+    case Occluder::hand_over_mouth: add_hand(Vector3d{0, 0, 0}, scale); break;
+    case Occluder::hand_over_eye: add_hand(Vector3d{eye.x(), eye.y(), 0}, scale); break;
     case Occluder::mask:
       mask_ = Ellipsoid{scale * Vector3d{0, -0.006, 0}, scale * Vector3d{0.060, 0.047, 0.032}};
       break;

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <utility>
 
 #include "armature/scene/photo_layer.hpp"
 #include "armature/scene/view.hpp"
@@ -68,8 +66,7 @@ SceneRenderer::SceneRenderer(const Photo& photo, const Staging& staging,
                 .occluder = OccluderBody{staging.occluder, photo},
                 .second_face = staging.second_face,
                 .background = imaging.background,
-                .lens = Lens{imaging, seed},
-                .canvas = {}})} {}
+                .lens = Lens{imaging, seed}})} {}
 SceneRenderer::~SceneRenderer() = default;
 SceneRenderer::SceneRenderer(SceneRenderer&&) noexcept = default;
 SceneRenderer& SceneRenderer::operator=(SceneRenderer&&) noexcept = default;

@@ -12,7 +12,6 @@
 #include <numbers>
 #include <random>
 #include <utility>
-#include <vector>
 
 #include "armature/scene/generated_face.hpp"
 #include "armature/scene/spot_photo_test.hpp"

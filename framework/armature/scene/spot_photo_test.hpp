@@ -17,7 +17,7 @@ inline const StereoCamera kCamera{
     .width = 640, .height = 480, .focal_px = 500, .cx = 319.5, .cy = 239.5, .baseline_m = 0.12};
 
 inline Photo flat_photo(std::uint8_t grey) {
-  Photo photo{.image = {.width = 400, .height = 500, .pixels = {}},
+  Photo photo{.image = {.width = 400, .height = 500},
               .left_eye = {150, 150},
               .right_eye = {250, 150},
               .mouth = {200, 250},

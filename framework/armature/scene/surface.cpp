@@ -45,8 +45,7 @@ std::optional<Eigen::Vector2d> on_sphere(const Ray& ray, double radius) {
 
 Eigen::Vector3d Surface::point(const Eigen::Vector2d& flat) const {
   switch (shape) {
-    case Shape::plane:
-      return {flat.x(), flat.y(), 0};
+    case Shape::plane: return {flat.x(), flat.y(), 0};
     case Shape::cylinder: {
       const double turn = flat.x() / radius_m;
       return {radius_m * std::sin(turn), flat.y(), radius_m * (1 - std::cos(turn))};

@@ -15,18 +15,11 @@ Expected<void> obey(const OperatorCommand& command, Procedure& procedure, Pursue
   const auto word = procedure.hear(command);
   if (!word) return tl::unexpected{word.error()};
   switch (*word) {
-    case OperatorWord::confirm:
-      break;
-    case OperatorWord::pause:
-      goal.pause();
-      break;
-    case OperatorWord::resume:
-      goal.resume();
-      break;
-    case OperatorWord::back:
-      return back();
-    case OperatorWord::abort:
-      return abort();
+    case OperatorWord::confirm: break;
+    case OperatorWord::pause: goal.pause(); break;
+    case OperatorWord::resume: goal.resume(); break;
+    case OperatorWord::back: return back();
+    case OperatorWord::abort: return abort();
   }
   return {};
 }

@@ -62,8 +62,7 @@ Expected<OperatorWord> Procedure::hear(const OperatorCommand& command) {
       paused_ = false;
       break;
     case OperatorWord::back:
-    case OperatorWord::abort:
-      break;
+    case OperatorWord::abort: break;
   }
   return said;
 }

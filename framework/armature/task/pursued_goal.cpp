@@ -84,9 +84,7 @@ void PursuedGoal::hear(const GoalReport& report, Time now) {
       stops_ahead_ = report.stops_ahead;
       break;
     case GoalReport::State::superseded:  // by a goal that is not ours
-    case GoalReport::State::failed:
-      give_up_or_try_again(report, now);
-      break;
+    case GoalReport::State::failed: give_up_or_try_again(report, now); break;
   }
 }
 

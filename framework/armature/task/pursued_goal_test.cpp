@@ -75,7 +75,7 @@ class PausedGoalTest : public ::testing::Test {
 
   PursuedGoal goals_;
   std::uint64_t id_ = 0;
-  const MotionGoal goal_{.pose = {.position = {1, 2, 3}, .orientation = {}}, .stepwise = true};
+  const MotionGoal goal_{.pose = {.position = {1, 2, 3}}, .stepwise = true};
 };
 
 TEST_F(PausedGoalTest, AWayThatMustNotBeBegunTwiceIsGoneOnWith) {

@@ -10,7 +10,6 @@
 #include <map>
 #include <optional>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 #include "armature/volume/volume_axes.hpp"

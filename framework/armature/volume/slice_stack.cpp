@@ -95,7 +95,7 @@ Expected<Volume> stacked(std::vector<DicomSlice> slices) {
   if (auto part = not_whole(slices)) return refuse(std::move(*part));
   const DicomSlice& first = slices.front();
   const auto count = static_cast<int>(slices.size());
-  Volume volume{.geometry = {.size = {first.columns, first.rows, count}}, .voxels = {}};
+  Volume volume{.geometry = {.size = {first.columns, first.rows, count}}};
   const Vector3d step = (slices.back().position - first.position) / (count - 1);
   if (auto wrong = set_axes({1e-3 * first.column_step * first.along_row,
                              1e-3 * first.row_step * first.along_column, 1e-3 * step},

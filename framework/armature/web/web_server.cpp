@@ -146,15 +146,10 @@ class WebServer::Impl {
     if (ends_) return 0;
     if (is_of_session && (!client || !sessions_.contains(*client))) return 0;  // was refused
     switch (reason) {
-      case LWS_CALLBACK_HTTP:
-        return answer_browser(connection);
-      case LWS_CALLBACK_HTTP_WRITEABLE:
-        return write_page(connection);
-      case LWS_CALLBACK_CLOSED_HTTP:
-        page_written_.erase(connection);
-        return 0;
-      case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE:
-        return admit(connection);
+      case LWS_CALLBACK_HTTP: return answer_browser(connection);
+      case LWS_CALLBACK_HTTP_WRITEABLE: return write_page(connection);
+      case LWS_CALLBACK_CLOSED_HTTP: page_written_.erase(connection); return 0;
+      case LWS_CALLBACK_HTTP_CONFIRM_UPGRADE: return admit(connection);
       case LWS_CALLBACK_FILTER_PROTOCOL_CONNECTION:
         return lws_get_protocol(connection) == first_protocol() ? 1 : 0;
       case LWS_CALLBACK_ESTABLISHED:
@@ -164,8 +159,7 @@ class WebServer::Impl {
         return 0;
       case LWS_CALLBACK_RECEIVE:
         return hear(connection, *client, {static_cast<const char*>(in), size});
-      case LWS_CALLBACK_SERVER_WRITEABLE:
-        return write_next(connection, sessions_.at(*client));
+      case LWS_CALLBACK_SERVER_WRITEABLE: return write_next(connection, sessions_.at(*client));
       case LWS_CALLBACK_CLOSED:
         events_.closed(*client);
         sessions_.erase(*client);
@@ -173,8 +167,7 @@ class WebServer::Impl {
       case LWS_CALLBACK_EVENT_WAIT_CANCELLED:  // told to each protocol
         if (lws_get_protocol(connection) == first_protocol()) events_.woken();
         return 0;
-      default:
-        return 0;
+      default: return 0;
     }
   }
 

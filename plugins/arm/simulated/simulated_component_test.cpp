@@ -44,9 +44,8 @@ class SimulatedArmComponentTest : public testing::Test {
 
   const RobotModel lamp_ = load_robot_model(kLamp);
   const JointVector home_ = resting_position(lamp_), still_ = JointVector::Zero(5);
-  ComponentHarness arm_{
-      built_plugins(),
-      {.component = "{plugin: arm/simulated}", .robot = config::load(kLamp), .rig = {}}};
+  ComponentHarness arm_{built_plugins(),
+                        {.component = "{plugin: arm/simulated}", .robot = config::load(kLamp)}};
   double now_s_ = 5;
   msg::JointState measured_, setpoint_;
   std::string state_;
@@ -56,8 +55,7 @@ TEST_F(SimulatedArmComponentTest, RunsAtItsRate) {
   EXPECT_EQ(arm_.period(), seconds(0.001));
   const ComponentHarness slow{built_plugins(),
                               {.component = "{plugin: arm/simulated, params: {rate_hz: 250}}",
-                               .robot = config::load(kLamp),
-                               .rig = {}}};
+                               .robot = config::load(kLamp)}};
   EXPECT_EQ(slow.period(), seconds(0.004));
 }
 
@@ -348,8 +346,7 @@ TEST(SimulatedArmComponent, DoesNotStartWithARobotThatNamesNoHome) {
       "{armature_robot: 1, name: one, joints: [{name: j1, a_m: 1, limits_deg: [-90, 90], "
       "velocity_rad_s: 1, acceleration_rad_s2: 1}], frames: {tool: {parent: j1}}}",
       "one.yaml");
-  EXPECT_EQ(refusal_of(built_plugins(),
-                       {.component = "{plugin: arm/simulated}", .robot = robot, .rig = {}}),
+  EXPECT_EQ(refusal_of(built_plugins(), {.component = "{plugin: arm/simulated}", .robot = robot}),
             "robot one names no home_deg to start from");
 }
 

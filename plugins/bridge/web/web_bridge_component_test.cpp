@@ -16,7 +16,7 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
 ComponentHarness::Options bridge_with(const std::string& params) {
-  return {.component = "{plugin: bridge/web, params: {" + params + "}}", .robot = {}, .rig = {}};
+  return {.component = "{plugin: bridge/web, params: {" + params + "}}", .robot = {}};
 }
 
 std::string refusal_with(const std::string& params) {

@@ -24,8 +24,7 @@ class ImagesTest : public testing::Test {
   ComponentHarness::Options options(const std::string& more) const {
     return {.component = "{plugin: camera/images, params: {left: " + files_.path("left") +
                          ", right: " + files_.path("right") + ", rate_hz: 10" + more + "}}",
-            .robot = {},
-            .rig = {}};
+            .robot = {}};
   }
   /// Steps every 10 ms of [from, until) and gives "grey @ stamp in ms" of the left pictures.
   static std::vector<std::string> left(ComponentHarness& images, double from_s, double until_s) {
@@ -151,7 +150,7 @@ TEST_F(ImagesTest, WhatIsToBePlayedMustBeSaidOnceAndBeThere) {
   const auto refusal = [](const std::string& params) {
     return refusal_of(
         built_plugins(),
-        {.component = "{plugin: camera/images, params: {" + params + "}}", .robot = {}, .rig = {}});
+        {.component = "{plugin: camera/images, params: {" + params + "}}", .robot = {}});
   };
   EXPECT_NE(
       refusal("").find("there is nothing to play; set left and right (folders), or recording"),

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <random>
 #include <string>
-#include <vector>
 
 namespace armature::camera::stereo_pair {
 namespace {

@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <Eigen/Dense>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -127,8 +126,7 @@ class StereoPairTest : public testing::Test {
     ComponentHarness::Options made{
         .component =
             "{plugin: camera/stereo_pair, params: {calibration: " + file_.string() + more + "}}",
-        .robot = {},
-        .rig = {}};
+        .robot = {}};
     if (!rig.empty()) made.rig = config::parse_text(rig, "rig.yaml");
     return made;
   }
@@ -367,8 +365,7 @@ TEST_F(StereoPairTest, ARigThatSaysAnotherPairIsRefusedWithTheNumbersThatItNeeds
 }
 
 TEST_F(StereoPairTest, ACalibrationThatCannotBeUsedIsRefusedWithItsFile) {
-  EXPECT_NE(refusal_of(built_plugins(),
-                       {.component = "{plugin: camera/stereo_pair}", .robot = {}, .rig = {}})
+  EXPECT_NE(refusal_of(built_plugins(), {.component = "{plugin: camera/stereo_pair}", .robot = {}})
                 .find("neither a calibration nor a rig says what the cameras are"),
             std::string::npos);
   std::ofstream{file_} << calibration(1000);

@@ -37,13 +37,11 @@ std::string CameraReader::read_pictures(VideoStream& stream, DriverQueue<Report>
   Duration timeout = std::max(timing_.first_within, timing_.timeout);
   for (int empty = 0; empty < kMaxEmpty;) {
     switch (device_->wait(reports.stop_descriptor(), timeout)) {
-      case VideoDevice::Wake::stop:
-        return {};
+      case VideoDevice::Wake::stop: return {};
       case VideoDevice::Wake::timeout:
         return fmt::format("{}: no picture for {:g} s; the camera is started again",
                            settings_.device, to_seconds(timeout));
-      case VideoDevice::Wake::frame:
-        break;
+      case VideoDevice::Wake::frame: break;
     }
     const auto frame = stream.take();
     if (!frame) return frame.error().text;

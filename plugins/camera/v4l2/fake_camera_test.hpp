@@ -91,40 +91,26 @@ class FakeCamera final : public VideoDevice {
   int request(unsigned long number, void* argument) override {
     EXPECT_TRUE(is_open);
     switch (number) {
-      case VIDIOC_QUERYCAP:
-        return tell(*static_cast<v4l2_capability*>(argument));
-      case VIDIOC_ENUM_FMT:
-        return tell(*static_cast<v4l2_fmtdesc*>(argument));
-      case VIDIOC_ENUM_FRAMESIZES:
-        return tell(*static_cast<v4l2_frmsizeenum*>(argument));
-      case VIDIOC_S_FMT:
-        return take(static_cast<v4l2_format*>(argument)->fmt.pix);
-      case VIDIOC_S_PARM:
-        return take(static_cast<v4l2_streamparm*>(argument)->parm.capture);
-      case VIDIOC_QUERYCTRL:
-        return tell(*static_cast<v4l2_queryctrl*>(argument));
-      case VIDIOC_S_CTRL:
-        return take(*static_cast<v4l2_control*>(argument));
+      case VIDIOC_QUERYCAP: return tell(*static_cast<v4l2_capability*>(argument));
+      case VIDIOC_ENUM_FMT: return tell(*static_cast<v4l2_fmtdesc*>(argument));
+      case VIDIOC_ENUM_FRAMESIZES: return tell(*static_cast<v4l2_frmsizeenum*>(argument));
+      case VIDIOC_S_FMT: return take(static_cast<v4l2_format*>(argument)->fmt.pix);
+      case VIDIOC_S_PARM: return take(static_cast<v4l2_streamparm*>(argument)->parm.capture);
+      case VIDIOC_QUERYCTRL: return tell(*static_cast<v4l2_queryctrl*>(argument));
+      case VIDIOC_S_CTRL: return take(*static_cast<v4l2_control*>(argument));
       case VIDIOC_REQBUFS:
         buffers_.resize(static_cast<v4l2_requestbuffers*>(argument)->count);
         return 0;
-      case VIDIOC_QUERYBUF:
-        return tell(*static_cast<v4l2_buffer*>(argument));
-      case VIDIOC_QBUF:
-        return queue(*static_cast<v4l2_buffer*>(argument));
-      case VIDIOC_DQBUF:
-        return dequeue(*static_cast<v4l2_buffer*>(argument));
+      case VIDIOC_QUERYBUF: return tell(*static_cast<v4l2_buffer*>(argument));
+      case VIDIOC_QBUF: return queue(*static_cast<v4l2_buffer*>(argument));
+      case VIDIOC_DQBUF: return dequeue(*static_cast<v4l2_buffer*>(argument));
       case VIDIOC_STREAMON:
         ++starts;
         runs_ = start_error == 0;
         sequence_ = 0;
         return start_error;
-      case VIDIOC_STREAMOFF:
-        runs_ = false;
-        return 0;
-      default:
-        ADD_FAILURE() << "the camera knows no request " << number;
-        return ENOTTY;
+      case VIDIOC_STREAMOFF: runs_ = false; return 0;
+      default: ADD_FAILURE() << "the camera knows no request " << number; return ENOTTY;
     }
   }
   std::size_t queued() const { return queued_.size(); }

@@ -23,18 +23,12 @@ constexpr Duration kTellFor = seconds(1);  // of a picture that could not be use
 
 std::optional<Layout> layout_of(Parameters::Format format) {
   switch (format) {
-    case Parameters::Format::any:
-      return std::nullopt;
-    case Parameters::Format::grey:
-      return Layout::grey;
-    case Parameters::Format::nv12:
-      return Layout::nv12;
-    case Parameters::Format::yuyv:
-      return Layout::yuyv;
-    case Parameters::Format::uyvy:
-      return Layout::uyvy;
-    case Parameters::Format::mjpeg:
-      return Layout::mjpeg;
+    case Parameters::Format::any: return std::nullopt;
+    case Parameters::Format::grey: return Layout::grey;
+    case Parameters::Format::nv12: return Layout::nv12;
+    case Parameters::Format::yuyv: return Layout::yuyv;
+    case Parameters::Format::uyvy: return Layout::uyvy;
+    case Parameters::Format::mjpeg: return Layout::mjpeg;
   }
   return std::nullopt;
 }

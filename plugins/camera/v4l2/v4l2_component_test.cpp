@@ -13,8 +13,7 @@ namespace {
 
 ComponentHarness::Options device(const std::string& path) {
   return {.component = "{plugin: camera/v4l2, topics: left, params: {device: " + path + "}}",
-          .robot = {},
-          .rig = {}};
+          .robot = {}};
 }
 
 /// Steps until it says something is wrong.
@@ -42,10 +41,9 @@ TEST(V4l2, ADeviceThatIsNotThereOrNoCameraIsNamedInTheStateAndTheRunGoesOn) {
 }
 
 TEST(V4l2, NeedsADevice) {
-  EXPECT_NE(
-      refusal_of(built_plugins(), {.component = "{plugin: camera/v4l2}", .robot = {}, .rig = {}})
-          .find("device"),
-      std::string::npos);
+  EXPECT_NE(refusal_of(built_plugins(), {.component = "{plugin: camera/v4l2}", .robot = {}})
+                .find("device"),
+            std::string::npos);
   EXPECT_NE(refusal_of(built_plugins(), device("''")).find("'device' is empty, and has no default"),
             std::string::npos);
 }

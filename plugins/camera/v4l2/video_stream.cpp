@@ -45,14 +45,10 @@ const char* hint(int error) {
   switch (error) {
     case ENOENT:
     case ENODEV:
-    case ENXIO:
-      return "; is it plugged in?";
-    case EACCES:
-      return "; its user must be in the group 'video'";
-    case EBUSY:
-      return "; another program has it";
-    default:
-      return "";
+    case ENXIO: return "; is it plugged in?";
+    case EACCES: return "; its user must be in the group 'video'";
+    case EBUSY: return "; another program has it";
+    default: return "";
   }
 }
 

@@ -15,10 +15,7 @@ namespace {
 class FolderPicturesTest : public testing::Test {
  protected:
   FolderPictures::Options two_folders() const {
-    return {.left = files_.path("left"),
-            .right = files_.path("right"),
-            .timestamps = {},
-            .interval = seconds(0.5)};
+    return {.left = files_.path("left"), .right = files_.path("right"), .interval = seconds(0.5)};
   }
   /// "side grey @ time" of every picture.
   static std::vector<std::string> played(FolderPictures& pictures) {
@@ -57,8 +54,7 @@ TEST_F(FolderPicturesTest, FindsPairsOfOneFolderByTheWordsLeftAndRight) {
   files_.write("left01.png", 10);
   files_.write("right01.png", 11);
   files_.write("other.png", 99);
-  FolderPictures pictures{
-      {.left = files_.path(), .right = files_.path(), .timestamps = {}, .interval = seconds(1)}};
+  FolderPictures pictures{{.left = files_.path(), .right = files_.path(), .interval = seconds(1)}};
   EXPECT_EQ(played(pictures), (std::vector<std::string>{"left 10 @ 0", "right 11 @ 0"}));
 }
 

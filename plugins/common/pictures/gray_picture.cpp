@@ -32,7 +32,7 @@ constexpr std::array<Encoding, 5> kEncodings{{{"mono8", 1, -1},
                                               {"bgra8", 4, cv::COLOR_BGRA2GRAY}}};
 
 GrayPicture picture_of(const cv::Mat& gray) {
-  GrayPicture picture{.width = gray.cols, .height = gray.rows, .pixels = {}};
+  GrayPicture picture{.width = gray.cols, .height = gray.rows};
   picture.pixels.reserve(gray.total());
   for (int v = 0; v < gray.rows; ++v) {
     const auto* row = gray.ptr<std::uint8_t>(v);
@@ -51,7 +51,7 @@ Expected<GrayPicture> decode_jpeg(std::span<const std::uint8_t> bytes) {
   const auto size = decoder.size_of(bytes);
   if (!size) return tl::unexpected{size.error()};
   if (std::max(size->width, size->height) > kMaxSide) return refuse_size(size->width, size->height);
-  GrayPicture picture{.width = size->width, .height = size->height, .pixels = {}};
+  GrayPicture picture{.width = size->width, .height = size->height};
   const auto decoded = decoder.decode_gray(bytes, size->width, size->height, picture.pixels);
   if (!decoded) return tl::unexpected{decoded.error()};
   return picture;

@@ -138,10 +138,8 @@ Expected<StereoFit> fit_stereo(const Points& board, const std::vector<BoardView>
                                 .height = options.height,
                                 .left = found->lenses[0],
                                 .right = found->lenses[1],
-                                .right_T_left = found->right_T_left,
-                                .rectification = {}},
+                                .right_T_left = found->right_T_left},
                 .left_T_board = found->left_T_board,
-                .view_rms_px = {},
                 .errors = errors};
   double left_squares = 0, right_squares = 0;
   const auto points = static_cast<double>(board.size());

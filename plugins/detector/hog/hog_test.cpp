@@ -39,7 +39,7 @@ INSTANTIATE_TEST_SUITE_P(Hog, DetectorLaws,
 
 TEST(Hog, EnlargesThePictureForFacesSmallerThanItsWindow) {
   const Picture far = drawn_face(placed(0.06, 0, 2.6)).left;
-  const SearchRegion everywhere{.box = {0, 0, 1279, 719}, .face_width = {}};
+  const SearchRegion everywhere{.box = {0, 0, 1279, 719}};
   EXPECT_TRUE(detector().detect(far.view(), everywhere)->empty());
   const auto patient = make("min_face_px: 40");
   const auto faces = patient->detect(far.view(), everywhere);

@@ -3,7 +3,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "armature/kinds/landmarks/stretched_image.hpp"
 #include "feature_plane.hpp"

@@ -17,7 +17,7 @@ struct Seen {
 };
 
 Seen frontal(const Circumstances& how, std::uint64_t seed) {
-  Seen seen{.face = posed_face(how, seed), .features = {}, .aligned = {}, .view = {}};
+  Seen seen{.face = posed_face(how, seed), .view = {}};
   const auto& truth = seen.face.truth;
   const StereoCamera& camera = seen.face.camera;
   seen.features = {camera.project_left(truth.left_eye), camera.project_left(truth.right_eye),

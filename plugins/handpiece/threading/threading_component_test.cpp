@@ -51,8 +51,7 @@ class ThreadingTest : public testing::Test {
   const RobotModel arm_ = load_robot_model(kArm);
   const JointVector q_ = arm_.home().value();
   ComponentHarness bench_{
-      built_plugins(),
-      {.component = "{plugin: handpiece/threading}", .robot = config::load(kArm), .rig = {}}};
+      built_plugins(), {.component = "{plugin: handpiece/threading}", .robot = config::load(kArm)}};
   double now_s_ = 7;
 };
 

@@ -1,8 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <bit>
-#include <cmath>
-#include <cstdint>
-#include <cstring>
 
 #include "descent.hpp"
 

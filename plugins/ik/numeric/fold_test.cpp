@@ -24,8 +24,7 @@ RobotModel limb() {
                       .lower = -3,
                       .upper = 3,
                       .max_velocity = 1,
-                      .max_acceleration = 1,
-                      .coupling = {}});
+                      .max_acceleration = 1});
   }
   return {{"limb",
            RobotModel::Convention::standard,

@@ -2,7 +2,6 @@
 #include "numeric.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>

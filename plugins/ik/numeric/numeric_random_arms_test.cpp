@@ -75,8 +75,7 @@ class RandomArms {
                      : slides ? between(0.2, 1)
                               : between(0.5, 3),
             .max_velocity = 1,
-            .max_acceleration = 1,
-            .coupling = {}};
+            .max_acceleration = 1};
   }
 
   std::mt19937 random_;
@@ -152,8 +151,7 @@ RobotModel industrial_arm_on(Joint first) {
                       .lower = -2.2,
                       .upper = 2.2,
                       .max_velocity = 1,
-                      .max_acceleration = 1,
-                      .coupling = {}});
+                      .max_acceleration = 1});
   }
   return {{"on_first",
            RobotModel::Convention::standard,
@@ -165,8 +163,8 @@ RobotModel industrial_arm_on(Joint first) {
 }
 
 TEST(Numeric, FindsWhatAnArmReachesOfWhichOneJointFollowsAnEndlessOneByHalfItsAngle) {
-  const RobotModel uncoupled = industrial_arm_on(
-      {.d = 0.3, .a = 0.2, .alpha = 0.5, .lower = -kNone, .upper = kNone, .coupling = {}});
+  const RobotModel uncoupled =
+      industrial_arm_on({.d = 0.3, .a = 0.2, .alpha = 0.5, .lower = -kNone, .upper = kNone});
   std::vector<Joint> joints = uncoupled.joints();
   joints[6].coupling = Joint::Coupling{.to = 0, .ratio = 0.5, .offset = 0};
   joints[6].lower = -kNone, joints[6].upper = kNone;
@@ -186,11 +184,8 @@ TEST(Numeric, FindsWhatAnArmReachesOfWhichOneJointFollowsAnEndlessOneByHalfItsAn
 
 TEST(Numeric, FindsWhatAnArmOnALongSlideReaches) {
   for (const double length : {1.0, 5.0, 50.0, 500.0}) {
-    const RobotModel model = industrial_arm_on({.type = Joint::Type::prismatic,
-                                                .alpha = kPi / 2,
-                                                .lower = 0,
-                                                .upper = length,
-                                                .coupling = {}});
+    const RobotModel model = industrial_arm_on(
+        {.type = Joint::Type::prismatic, .alpha = kPi / 2, .lower = 0, .upper = length});
     RandomArms arms{3};
     Count count;
     ask(arms, model, 1000, 5000, count);

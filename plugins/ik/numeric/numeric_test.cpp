@@ -26,8 +26,7 @@ RobotModel arm(std::string name, const std::vector<Row>& rows,
                       .lower = -limit * radians,
                       .upper = limit * radians,
                       .max_velocity = 1,
-                      .max_acceleration = 1,
-                      .coupling = {}});
+                      .max_acceleration = 1});
   }
   const int last = static_cast<int>(joints.size()) - 1;
   return {{std::move(name),

@@ -20,12 +20,12 @@ namespace {
 RobotModel short_forearm() {
   constexpr double kRight = std::numbers::pi / 2;
   std::vector<Joint> joints(6);
-  joints[0] = {.name = "j1", .d = 0.3, .alpha = kRight, .coupling = {}};
-  joints[1] = {.name = "j2", .a = 0.6, .coupling = {}};
-  joints[2] = {.name = "j3", .alpha = -kRight, .coupling = {}};
-  joints[3] = {.name = "j4", .d = 0.2, .alpha = kRight, .coupling = {}};
-  joints[4] = {.name = "j5", .alpha = -kRight, .coupling = {}};
-  joints[5] = {.name = "j6", .d = 0.1, .coupling = {}};
+  joints[0] = {.name = "j1", .d = 0.3, .alpha = kRight};
+  joints[1] = {.name = "j2", .a = 0.6};
+  joints[2] = {.name = "j3", .alpha = -kRight};
+  joints[3] = {.name = "j4", .d = 0.2, .alpha = kRight};
+  joints[4] = {.name = "j5", .alpha = -kRight};
+  joints[5] = {.name = "j6", .d = 0.1};
   for (Joint& joint : joints) {
     joint.lower = -3, joint.upper = 3;
     joint.max_velocity = joint.max_acceleration = 1;

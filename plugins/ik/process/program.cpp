@@ -15,7 +15,6 @@
 #include <cstring>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "armature/values/spawn_plan.hpp"
 

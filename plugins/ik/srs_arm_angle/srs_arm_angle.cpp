@@ -2,7 +2,6 @@
 #include "srs_arm_angle.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "arm_angle_choice.hpp"

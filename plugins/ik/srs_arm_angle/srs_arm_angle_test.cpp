@@ -127,17 +127,10 @@ TEST_F(SrsArmAngleTest, ASingularBranchIsOneWithoutManipulability) {
       const double small = std::pow(10, -12.0 * i / 20000);
       Angles t = angles_of(arm, random_joints(*model, random_));
       switch (i % 4) {
-        case 0:
-          t[3] = small;
-          break;
-        case 1:
-          t[1] = small, t[2] = M_PI / 2 + 0.3 * small;
-          break;
-        case 2:
-          t[5] = -small, t[4] = -M_PI / 2 + 2 * small;
-          break;
-        default:
-          t[1] = small, t[5] = small;
+        case 0: t[3] = small; break;
+        case 1: t[1] = small, t[2] = M_PI / 2 + 0.3 * small; break;
+        case 2: t[5] = -small, t[4] = -M_PI / 2 + 2 * small; break;
+        default: t[1] = small, t[5] = small;
       }
       const JointVector q = joints_of(arm, t);
       IkGoal goal = goal_at(*model, q);

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <functional>
-#include <string>
 
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "test_arms.hpp"

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "test_arms.hpp"
 

@@ -5,8 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "small_head_test.hpp"
 
 namespace armature::image::needle_planner {

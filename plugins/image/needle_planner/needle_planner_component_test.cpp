@@ -65,10 +65,9 @@ class NeedlePlannerTest : public testing::Test {
 
   const std::filesystem::path file_ = std::filesystem::temp_directory_path() /
                                       ("armature-plan-" + std::to_string(getpid()) + ".nrrd");
-  ComponentHarness planner_{built_plugins(),
-                            {.component = "{plugin: image/needle_planner, params: {markers: 4}}",
-                             .robot = {},
-                             .rig = {}}};
+  ComponentHarness planner_{
+      built_plugins(),
+      {.component = "{plugin: image/needle_planner, params: {markers: 4}}", .robot = {}}};
 };
 
 TEST_F(NeedlePlannerTest, PlansTheBestWayOnce) {
@@ -138,10 +137,9 @@ TEST_F(NeedlePlannerTest, RefusesATruncatedFile) {
 
 TEST(NeedlePlannerParameters, ThatAreNoPlaceOrNoDirectionAreRefused) {
   const auto refusal = [](const std::string& params) {
-    return refusal_of(built_plugins(),
-                      {.component = "{plugin: image/needle_planner, params: {" + params + "}}",
-                       .robot = {},
-                       .rig = {}});
+    return refusal_of(
+        built_plugins(),
+        {.component = "{plugin: image/needle_planner, params: {" + params + "}}", .robot = {}});
   };
   EXPECT_THAT(refusal("lesion_near_mm: [1, 2]"), HasSubstr("'lesion_near_mm' has 2 numbers"));
   EXPECT_THAT(refusal("approach: [0, 0, 0]"), HasSubstr("'approach' is no direction"));

@@ -19,8 +19,7 @@ class VolumeComponentTest : public testing::Test {
   ComponentHarness component() const {
     return {built_plugins(),
             {.component = "{plugin: image/volume, params: {path: " + file_.string() + "}}",
-             .robot = {},
-             .rig = {}}};
+             .robot = {}}};
   }
   const std::filesystem::path file_ = std::filesystem::temp_directory_path() /
                                       ("armature-in-" + std::to_string(getpid()) + ".nrrd");
@@ -51,12 +50,10 @@ TEST_F(VolumeComponentTest, EndsTheRunWithTheReasonWhenAFileIsTruncated) {
 }
 
 TEST_F(VolumeComponentTest, APathThatIsNotThereIsRefusedBeforeTheRun) {
-  EXPECT_NE(
-      refusal_of(
-          built_plugins(),
-          {.component = "{plugin: image/volume, params: {path: /gone}}", .robot = {}, .rig = {}})
-          .find("path: there is no '/gone'; it is an NRRD file, or the folder"),
-      std::string::npos);
+  EXPECT_NE(refusal_of(built_plugins(),
+                       {.component = "{plugin: image/volume, params: {path: /gone}}", .robot = {}})
+                .find("path: there is no '/gone'; it is an NRRD file, or the folder"),
+            std::string::npos);
 }
 
 }  // namespace

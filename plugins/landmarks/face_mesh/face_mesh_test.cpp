@@ -8,9 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <sstream>
-#include <vector>
 
 #include "armature/kinds/declared_params.hpp"
 #include "armature/kinds/drawn_face.hpp"

@@ -30,9 +30,7 @@ class CompressedImageTest : public testing::Test {
   }
   ComponentHarness component_{
       built_plugins(),
-      {.component = "{plugin: monitor/compressed_image, params: {rate_hz: 10}}",
-       .robot = {},
-       .rig = {}}};
+      {.component = "{plugin: monitor/compressed_image, params: {rate_hz: 10}}", .robot = {}}};
 };
 
 TEST_F(CompressedImageTest, HasTheHeaderOfThePictureAndFewerBytes) {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <set>
-#include <utility>
 
 #include "armature/kinds/geometry_params.hpp"
 #include "armature/messages/geometry.hpp"

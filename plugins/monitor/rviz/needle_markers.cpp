@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "needle_markers.hpp"
 
-#include <vector>
-
 #include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/geometry.hpp"
 #include "capsule_markers.hpp"

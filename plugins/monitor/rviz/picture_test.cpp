@@ -24,14 +24,10 @@ bool in_unit_range(float value) { return value >= 0 && value <= 1; }
 std::size_t min_points(int type) {
   switch (static_cast<MarkerType>(type)) {
     case MarkerType::arrow:
-    case MarkerType::line_strip:
-      return 2;
-    case MarkerType::sphere_list:
-      return 1;
-    case MarkerType::triangle_list:
-      return 3;
-    default:
-      return 0;
+    case MarkerType::line_strip: return 2;
+    case MarkerType::sphere_list: return 1;
+    case MarkerType::triangle_list: return 3;
+    default: return 0;
   }
 }
 

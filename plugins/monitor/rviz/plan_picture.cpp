@@ -34,8 +34,7 @@ void add_zones(MarkerHead head, const msg::MotionGoal& goal, msg::MarkerArray& a
 msg::MarkerArray draw_plans(const Plans& plans, const ImageInBase& image,
                             const std::string& base_frame, Time stamp) {
   // Riding on its frame: what was told once stays where that is.
-  const MarkerHead head{
-      .ns = "all", .frame = base_frame, .stamp = stamp, .rides = true, .color = {}};
+  const MarkerHead head{.ns = "all", .frame = base_frame, .stamp = stamp, .rides = true};
   msg::MarkerArray array;
   array.markers_().push_back(removal_of_all(head));
   if (const auto base_T_image = image.base_T_image()) {

@@ -113,10 +113,8 @@ class RvizMonitor final : public Component {
           break;
         case MotionMode::pause:
         case MotionMode::resume:
-        case MotionMode::retrace:
-          break;
-        default:
-          is_news = std::exchange(way_, std::nullopt).has_value() || is_news;
+        case MotionMode::retrace: break;
+        default: is_news = std::exchange(way_, std::nullopt).has_value() || is_news;
       }
     }
     return is_news;

@@ -88,8 +88,7 @@ TEST_F(RvizMonitorTest, TellsNoSampleOfTheArmTwice) {
 }
 
 TEST_F(RvizMonitorTest, NeedsNothingButJoints) {
-  ComponentHarness bare{built_plugins(),
-                        {.component = "{plugin: monitor/rviz}", .robot = robot(), .rig = {}}};
+  ComponentHarness bare{built_plugins(), {.component = "{plugin: monitor/rviz}", .robot = robot()}};
   bare.step(1);
   EXPECT_TRUE(bare.take<msg::TFMessage>("tf").empty()) << "no arm yet";
   const auto fixed = bare.take<msg::TFMessage>("tf_static");
@@ -200,9 +199,7 @@ TEST_F(RvizMonitorTest, TellsNothingOfJointsThatAreNone) {
 
 TEST_F(RvizMonitorTest, RefusesAPrefixThatTf2DoesNotTake) {
   const ComponentHarness::Options options{
-      .component = "{plugin: monitor/rviz, params: {frame_prefix: /left/}}",
-      .robot = robot(),
-      .rig = {}};
+      .component = "{plugin: monitor/rviz, params: {frame_prefix: /left/}}", .robot = robot()};
   EXPECT_EQ(refusal_of(built_plugins(), options),
             "'/left/' begins with '/', which no tf2 frame may");
 }

@@ -163,7 +163,7 @@ class SectionsComponent final : public Component {
   }
 
   Overlay overlay() const {
-    Overlay overlay{.plan = {}, .needle = {}, .vessels = vessels(), .texts = {}};
+    Overlay overlay{.plan = {}, .needle = {}, .vessels = vessels()};
     if (plan_now_) overlay.plan = {to_eigen(plan_now_->entry_()), to_eigen(plan_now_->target_())};
     if (!tool_) return overlay;
     overlay.needle = {tool_->tip, tool_->tip - parameters_.needle * tool_->direction};

@@ -66,8 +66,7 @@ class SectionsComponentTest : public testing::Test {
   ComponentHarness view_{
       built_plugins(),
       {.component = "{plugin: monitor/sections, params: {size_px: 128, view_mm: 100}}",
-       .robot = robot_,
-       .rig = {}}};
+       .robot = robot_}};
 };
 
 TEST_F(SectionsComponentTest, TellWhereTheToolIsInTheImageAndHowFarFromWhatCounts) {
@@ -125,8 +124,7 @@ TEST(SectionsComponent, RefuseAWindowThatIsTurnedRound) {
   EXPECT_NE(
       refusal_of(built_plugins(),
                  {.component = "{plugin: monitor/sections, params: {window: [100, -100]}}",
-                  .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
-                  .rig = {}})
+                  .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml")})
           .find("'window' is black first"),
       std::string::npos);
 }

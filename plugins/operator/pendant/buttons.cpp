@@ -18,13 +18,10 @@ constexpr int kGoesDown = 1, kGoesUp = 0;  // 2: it repeats by itself
 
 const char* hint(int error) {
   switch (error) {
-    case EACCES:
-      return "; its user must be in the group 'input'";
+    case EACCES: return "; its user must be in the group 'input'";
     case ENOENT:
-    case ENODEV:
-      return "; is it plugged in?";
-    default:
-      return "";
+    case ENODEV: return "; is it plugged in?";
+    default: return "";
   }
 }
 

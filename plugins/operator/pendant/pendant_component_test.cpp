@@ -15,9 +15,7 @@ using testing::IsEmpty;
 class PendantTest : public testing::Test {
  protected:
   static ComponentHarness::Options pendant_with(const std::string& params) {
-    return {.component = "{plugin: operator/pendant, params: {" + params + "}}",
-            .robot = {},
-            .rig = {}};
+    return {.component = "{plugin: operator/pendant, params: {" + params + "}}", .robot = {}};
   }
   std::vector<bool> told(const char* output) {
     std::vector<bool> values;

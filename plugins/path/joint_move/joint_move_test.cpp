@@ -16,8 +16,7 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(JointMove, IsOneJointSegmentThatLastsAsLongAsItWasTold) {
   const PathRequest request{.start = {{0, 0, 1}, Eigen::Quaterniond::Identity()},
-                            .goal = {{1, 0, 0}, Eigen::Quaterniond{0.6, 0.8, 0, 0}},
-                            .focus = {}};
+                            .goal = {{1, 0, 0}, Eigen::Quaterniond{0.6, 0.8, 0, 0}}};
   const auto path = JointMove{{.duration = 5}}.plan(request);
   ASSERT_TRUE(path);
   ASSERT_EQ(path->size(), 1u);

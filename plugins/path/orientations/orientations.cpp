@@ -49,14 +49,10 @@ double parts_between(const Curves& curves, double from, double to, const Paramet
 
 OrientationInterpolator interpolator_of(Parameters::Interpolator chosen) {
   switch (chosen) {
-    case Parameters::Interpolator::slerp:
-      return OrientationInterpolator::slerp;
-    case Parameters::Interpolator::squad:
-      return OrientationInterpolator::squad;
-    case Parameters::Interpolator::rotvec_bspline:
-      return OrientationInterpolator::rotvec_bspline;
-    case Parameters::Interpolator::chart_bspline:
-      break;
+    case Parameters::Interpolator::slerp: return OrientationInterpolator::slerp;
+    case Parameters::Interpolator::squad: return OrientationInterpolator::squad;
+    case Parameters::Interpolator::rotvec_bspline: return OrientationInterpolator::rotvec_bspline;
+    case Parameters::Interpolator::chart_bspline: break;
   }
   return OrientationInterpolator::chart_bspline;
 }

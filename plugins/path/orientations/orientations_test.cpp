@@ -48,7 +48,6 @@ ToolPose turned(double angle, const Vector3d& axis, const Vector3d& position) {
 PathRequest three_bores() {
   return {.start = turned(0.2, {0, 0, 1}, {0.4, 0, 0.5}),
           .goal = turned(1.1, {1, 0.4, 0}, {0.45, 0.12, 0.46}),
-          .focus = {},
           .through = {turned(0.7, {1, 0, 0.2}, {0.42, 0.05, 0.5}),
                       turned(0.5, {0, 1, 0}, {0.5, 0.06, 0.48})}};
 }
@@ -137,10 +136,9 @@ TEST(Orientations, KeysOnOnePlaceAreTurnedThroughAtOneSpeed) {
 
 TEST(Orientations, AcrossHalfATurnOnlyTheRotationVectorsGoTheLongWay) {
   const auto turn = [](Interpolator interpolator) {
-    const auto path = plan({.start = turned(3.1, {0, 0, 1}, {0, 0, 0}),
-                            .goal = turned(3.3, {0, 0, 1}, {0.1, 0, 0}),
-                            .focus = {}},
-                           {.interpolator = interpolator});
+    const auto path = plan(
+        {.start = turned(3.1, {0, 0, 1}, {0, 0, 0}), .goal = turned(3.3, {0, 0, 1}, {0.1, 0, 0})},
+        {.interpolator = interpolator});
     if (!path) return -1.0;
     double total = 0;
     const auto& samples = path->front().samples;
@@ -158,7 +156,6 @@ TEST(Orientations, AcrossHalfATurnOnlyTheRotationVectorsGoTheLongWay) {
 TEST(Orientations, DirectionsGoOnGreatCirclesBetweenTheirBlends) {
   const PathRequest request{.start = {{0, 0, 0}, Direction{{1, 0, 0}}},
                             .goal = {{0, 0, 0}, Direction{{0, 0, 1}}},
-                            .focus = {},
                             .through = {{{0, 0, 0}, Direction{{0, 1, 0}}}}};
   const auto path = plan(request);
   ASSERT_TRUE(path) << path.error().text;
@@ -207,7 +204,6 @@ TEST(Orientations, AKeyPoseWhereTheArmNearlyStandsMakesNoCorner) {
 TEST(Orientations, ATurnByRoundingHasNoWeight) {
   const PathRequest request{.start = turned(1e-8, {0, 0, 1}, {0, 0, 0}),
                             .goal = turned(0, {0, 0, 1}, {0.2, 0.1, 0}),
-                            .focus = {},
                             .through = {turned(0, {0, 0, 1}, {0.1, 0, 0})}};
   const auto path = plan(request);
   ASSERT_TRUE(path) << path.error().text;

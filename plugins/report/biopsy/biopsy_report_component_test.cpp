@@ -67,8 +67,7 @@ class BiopsyReportTest : public testing::Test {
   ComponentHarness report_{
       built_plugins(),
       {.component = "{plugin: report/biopsy}",
-       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
-       .rig = {}}};
+       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml")}};
 };
 
 TEST_F(BiopsyReportTest, TellsTheErrorsAgainstTruthAndExpectation) {

@@ -45,8 +45,7 @@ class ImagesReportTest : public testing::Test {
     way.reason_("because");
     return ways;
   }
-  ComponentHarness report_{built_plugins(),
-                           {.component = "{plugin: report/images}", .robot = {}, .rig = {}}};
+  ComponentHarness report_{built_plugins(), {.component = "{plugin: report/images}", .robot = {}}};
 };
 
 TEST_F(ImagesReportTest, TellsTheErrorsOfWhatWasFound) {

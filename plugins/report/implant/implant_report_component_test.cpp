@@ -17,7 +17,6 @@
 namespace armature::report::implant {
 namespace {
 
-using Eigen::Isometry3d;
 using Eigen::Vector3d;
 
 /// A true drill that is 0.3 mm longer than it was found, at a site where it comes to when the arm
@@ -114,10 +113,10 @@ class ImplantReportTest : public testing::Test {
   bool has_implants_ = false;
   msg::Implant implant_;
   GuidedChain truth_, estimate_;
-  ComponentHarness report_{built_plugins(),
-                           {.component = "{plugin: report/implant}",
-                            .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"),
-                            .rig = {}}};
+  ComponentHarness report_{
+      built_plugins(),
+      {.component = "{plugin: report/implant}",
+       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml")}};
 };
 
 TEST_F(ImplantReportTest, TellsTheErrorAtTheSitesAndWhereItIsFrom) {

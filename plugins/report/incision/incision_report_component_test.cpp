@@ -20,8 +20,7 @@ using Eigen::Vector3d;
 const std::string kRobots = ARMATURE_SOURCE_DIR "/configs/robots/";
 
 ComponentHarness::Options report_of(const std::string& robot) {
-  return {
-      .component = "{plugin: report/incision}", .robot = config::load(kRobots + robot), .rig = {}};
+  return {.component = "{plugin: report/incision}", .robot = config::load(kRobots + robot)};
 }
 
 class IncisionReportTest : public testing::Test {

@@ -25,8 +25,7 @@ plot::Panel panel_of(const Quantity& quantity, const std::string& unit,
                      const Envelope& envelope) {
   plot::Panel panel{
       .y = {.label = std::string{quantity.name} + " [" + unit + quantity.per_time + "]",
-            .min_span = quantity.min_span},
-      .curves = {}};
+            .min_span = quantity.min_span}};
   for (std::size_t j = 0; j < joints.size(); ++j) {
     if (unit_of(joints[j]) == unit) panel.curves.push_back(envelope.curve(first + j, j));
   }
@@ -56,9 +55,7 @@ void JointPlot::add(const JointRow& row) {
 std::string JointPlot::svg() const {
   const std::vector<Joint>& joints = model_.joints();
   plot::Chart chart{.title = "The joints of " + model_.name(),
-                    .legend = {},
-                    .x = {.label = "time [s]", .min_span = 0.1},
-                    .panels = {}};
+                    .x = {.label = "time [s]", .min_span = 0.1}};
   for (std::size_t j = 0; j < joints.size(); ++j) {
     chart.legend.push_back(plot::line_of(j, joints[j].name));
   }

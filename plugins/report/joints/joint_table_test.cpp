@@ -47,17 +47,15 @@ TEST(JointTable, ARowTellsTheErrorAsMeasuredMinusReference) {
 
 TEST(JointTable, WhatNobodyToldAndWhatIsNoNumberAreEmptyFields) {
   std::string text;
-  append_line({.stamp = {},
-               .position = two(0.5, std::numeric_limits<double>::infinity()),
-               .speed = {},
-               .reference = {}},
-              text);
+  append_line(
+      {.stamp = {}, .position = two(0.5, std::numeric_limits<double>::infinity()), .speed = {}},
+      text);
   EXPECT_EQ(text, "0.000000,0.000000000,0.5,,,,,,,,,,\r\n");
 }
 
 TEST(JointTable, NothingIsLessThanZeroByItsSignOnly) {
   std::string text;
-  append_line({.stamp = {}, .position = two(-0.0, 1), .speed = {}, .reference = {}}, text);
+  append_line({.stamp = {}, .position = two(-0.0, 1), .speed = {}}, text);
   EXPECT_EQ(text.substr(0, 25), "0.000000,0.000000000,0,1,");
 }
 
@@ -68,7 +66,7 @@ struct Comma : std::numpunct<char> {
 TEST(JointTable, ADecimalSignIsAPointWhateverTheLocale) {
   const std::locale before = std::locale::global(std::locale{std::locale::classic(), new Comma});
   std::string text;
-  append_line({.stamp = {}, .position = two(0.5, 0.25), .speed = {}, .reference = {}}, text);
+  append_line({.stamp = {}, .position = two(0.5, 0.25), .speed = {}}, text);
   std::locale::global(before);
   EXPECT_EQ(text.substr(0, 31), "0.000000,0.000000000,0.5,0.25,,");
 }

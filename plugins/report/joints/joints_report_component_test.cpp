@@ -71,8 +71,7 @@ class JointsReportTest : public testing::Test {
   ComponentHarness bench(const std::string& more = "") const {
     return {built_plugins(),
             {.component = "{plugin: report/joints, params: {file: " + stem() + more + "}}",
-             .robot = config::load(kRobotFile),
-             .rig = {}}};
+             .robot = config::load(kRobotFile)}};
   }
   std::string stem() const { return folder_ / "arm_joints"; }
   std::string csv() const { return stem() + ".csv"; }
@@ -297,8 +296,7 @@ TEST_F(JointsReportTest, ThePictureIsWrittenAtTheEndAndAnOlderOneGoesAtTheStart)
 
 TEST_F(JointsReportTest, WithoutAFileItWritesNothingAndIsNeverActivated) {
   ComponentHarness report{
-      built_plugins(),
-      {.component = "{plugin: report/joints}", .robot = config::load(kRobotFile), .rig = {}}};
+      built_plugins(), {.component = "{plugin: report/joints}", .robot = config::load(kRobotFile)}};
   EXPECT_FALSE(report.period());
   run(report, 0, 41);
   report.component().write_files(folder_.path());
@@ -309,8 +307,7 @@ TEST_F(JointsReportTest, AFolderThatIsNotThereIsRefusedBeforeAnythingMoves) {
   fs::remove_all(folder_.path());
   const std::string refused = refusal_of(
       built_plugins(), {.component = "{plugin: report/joints, params: {file: " + stem() + "}}",
-                        .robot = config::load(kRobotFile),
-                        .rig = {}});
+                        .robot = config::load(kRobotFile)});
   EXPECT_THAT(refused, HasSubstr("cannot write '" + csv() + "': No such file or directory"));
 }
 

@@ -56,8 +56,7 @@ class LampReportTest : public ::testing::Test {
   static ComponentHarness report_with(const std::string& params) {
     return {built_plugins(),
             {.component = "{plugin: report/lamp_alignment, params: {" + params + "}}",
-             .robot = config::load(kLamp),
-             .rig = {}}};
+             .robot = config::load(kLamp)}};
   }
 
   const RobotModel lamp_ = load_robot_model(kLamp);

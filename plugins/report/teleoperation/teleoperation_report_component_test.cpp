@@ -21,8 +21,7 @@ const std::string kLeaderFile = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml
 
 ComponentHarness::Options report_with(const std::string& params) {
   return {.component = "{plugin: report/teleoperation, params: {" + params + "}}",
-          .robot = config::load(kLeaderFile),
-          .rig = {}};
+          .robot = config::load(kLeaderFile)};
 }
 
 class TeleoperationReportTest : public testing::Test {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <numbers>
 #include <random>
 
 #include "armature/robot/kinematics/joint_inertia.hpp"
@@ -45,8 +44,7 @@ class Cases {
   explicit Cases(std::uint64_t seed) : random_{seed} {}
 
   Case next() {
-    Case made{
-        .model = below(2) == 0 ? crane() : winder(), .rules = {}, .start = {}, .solutions = {}};
+    Case made{.model = below(2) == 0 ? crane() : winder(), .start = {}};
     if (below(3) == 0) made.rules.first_move = Parameters::FirstMove::free;
     if (below(3) == 0) made.rules.move_size = Parameters::MoveSize::inertia;
     made.rules.one_branch = below(4) == 0;

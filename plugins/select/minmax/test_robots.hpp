@@ -15,8 +15,7 @@ inline Joint joint(std::string name, Joint::Type type, double limit, double velo
           .lower = -limit,
           .upper = limit,
           .max_velocity = velocity,
-          .max_acceleration = 1,
-          .coupling = {}};
+          .max_acceleration = 1};
 }
 
 inline RobotModel robot_of(std::string name, std::vector<Joint> joints) {

@@ -19,8 +19,7 @@ RobotModel robot(double turn = 4) {
                  .lower = -limit,
                  .upper = limit,
                  .max_velocity = velocity,
-                 .max_acceleration = 1,
-                 .coupling = {}};
+                 .max_acceleration = 1};
   };
   return {
       {"crane",

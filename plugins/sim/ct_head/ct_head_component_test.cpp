@@ -26,7 +26,7 @@ msg::NeedlePlan told_anatomy() {
 }
 
 const ComponentHarness::Options kCoarse{
-    .component = "{plugin: sim/ct_head, params: {voxel_mm: [2, 2, 2]}}", .robot = {}, .rig = {}};
+    .component = "{plugin: sim/ct_head, params: {voxel_mm: [2, 2, 2]}}", .robot = {}};
 
 TEST(CtHeadComponent, ScansTheFirstHeadOnceAndSaysWhereTheVolumeIs) {
   auto head = std::make_unique<ComponentHarness>(built_plugins(), kCoarse);

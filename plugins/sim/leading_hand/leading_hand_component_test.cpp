@@ -22,8 +22,7 @@ const std::string kRobot = ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"
 
 ComponentHarness::Options hand_with(const std::string& params) {
   return {.component = "{plugin: sim/leading_hand, params: {" + params + "}}",
-          .robot = config::load(kRobot),
-          .rig = {}};
+          .robot = config::load(kRobot)};
 }
 
 class LeadingHandComponentTest : public testing::Test {

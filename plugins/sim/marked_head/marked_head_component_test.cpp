@@ -11,8 +11,7 @@ namespace armature::sim::marked_head {
 namespace {
 
 ComponentHarness::Options head_with(const std::string& params) {
-  return {
-      .component = "{plugin: sim/marked_head, params: {" + params + "}}", .robot = {}, .rig = {}};
+  return {.component = "{plugin: sim/marked_head, params: {" + params + "}}", .robot = {}};
 }
 
 std::string refusal(const std::string& params) {

@@ -24,8 +24,7 @@ MarkedHead head() {
                               {-0.0779, 0, 0.0450},
                               {0.0318, 0.0551, 0.0636}},
                   .entry = {0, 0.06, 0.07},
-                  .target = {0.01, 0.005, 0.012},
-                  .vessels = {}};
+                  .target = {0.01, 0.005, 0.012}};
   head.robot_T_image = Eigen::Translation3d{0.45, -0.12, 0.26} *
                        Eigen::AngleAxisd{1.1, Eigen::Vector3d{1, 2, -1}.normalized()};
   return head;

@@ -22,8 +22,7 @@ config::Node med7_file() { return config::load(ARMATURE_SOURCE_DIR "/configs/rob
 
 ComponentHarness::Options tracker_with(const std::string& params) {
   return {.component = "{plugin: sim/optical_tracker, params: {" + params + "}}",
-          .robot = med7_file(),
-          .rig = {}};
+          .robot = med7_file()};
 }
 
 class OpticalTrackerTest : public testing::Test {

@@ -79,10 +79,8 @@ scene::Photo photo_of(const Parameters& parameters) {
   switch (parameters.photo) {
     case Parameters::Photo::generated:
       return scene::generated_face(parameters.face_seed, parameters.eye_distance);
-    case Parameters::Photo::astronaut:
-      return astronaut(parameters);
-    case Parameters::Photo::file:
-      return photo_from_file(parameters);
+    case Parameters::Photo::astronaut: return astronaut(parameters);
+    case Parameters::Photo::file: return photo_from_file(parameters);
   }
   return {};
 }

@@ -19,8 +19,7 @@ const std::string kLeader = ARMATURE_SOURCE_DIR "/configs/robots/master.yaml";
 
 ComponentHarness::Options surgeon_with(const std::string& params) {
   return {.component = "{plugin: sim/surgeon, params: {" + params + "}}",
-          .robot = config::load(kLeader),
-          .rig = {}};
+          .robot = config::load(kLeader)};
 }
 
 class SurgeonTest : public testing::Test {

@@ -178,7 +178,6 @@ struct ConstantVelocity::Belief {
              .scatter = scatter,
              .nis = nis,
              .moving = moving,
-             .mean = {},
              .covariance = {}};
     Eigen::Map<Vector12>{m.mean.data()} = mean;
     Eigen::Map<Matrix12>{m.covariance.data()} = covariance;

@@ -83,18 +83,13 @@ void Biopsy::update(Time now) {
   }
   if (!procedure_.may_act() || heading_ != Heading::none || held_) return;
   switch (step()) {
-    case Step::touching:
-      touch_by_itself(now);
-      break;
-    case Step::registration:
-      break;
+    case Step::touching: touch_by_itself(now); break;
+    case Step::registration: break;
     case Step::approach:
       if (!has_left_hand(now)) break;
       [[fallthrough]];
     case Step::entry:
-    case Step::insertion:
-      set_out();
-      break;
+    case Step::insertion: set_out(); break;
     case Step::withdrawal:
       if (now - at_target_since_ >= seconds(parameters_.dwell)) turn_to(Heading::out);
       break;
@@ -174,17 +169,13 @@ Expected<void> Biopsy::hear(const OperatorCommand& command, Time now) {
         return clear;
       }
       break;
-    case OperatorWord::pause:
-      goal_.pause();
-      break;
+    case OperatorWord::pause: goal_.pause(); break;
     case OperatorWord::resume:
       if (turning_to_ == Heading::none) goal_.resume();
       waits_since_ = now;
       break;
-    case OperatorWord::back:
-      return go_back(now);
-    case OperatorWord::abort:
-      return abort();
+    case OperatorWord::back: return go_back(now);
+    case OperatorWord::abort: return abort();
   }
   return {};
 }
@@ -253,16 +244,11 @@ Biopsy::Phase Biopsy::phase() const {
   if (procedure_.over()) return ended_as_;
   if (held_) return Phase::held;
   switch (heading()) {
-    case Heading::onward:
-      return Phase::moving;
-    case Heading::back:
-      return Phase::going_back;
-    case Heading::out:
-      return Phase::withdrawing;
-    case Heading::home:
-      return Phase::aborting;
-    case Heading::none:
-      break;
+    case Heading::onward: return Phase::moving;
+    case Heading::back: return Phase::going_back;
+    case Heading::out: return Phase::withdrawing;
+    case Heading::home: return Phase::aborting;
+    case Heading::none: break;
   }
   if (step() == Step::touching) {
     return procedure_.step() > 0 ? Phase::touching : Phase::waiting;
@@ -274,32 +260,19 @@ Biopsy::Phase Biopsy::phase() const {
 
 const char* to_string(Biopsy::Phase phase) {
   switch (phase) {
-    case Biopsy::Phase::waiting:
-      return "waiting";
-    case Biopsy::Phase::touching:
-      return "touching";
-    case Biopsy::Phase::registering:
-      return "registering";
-    case Biopsy::Phase::asking:
-      return "asking";
-    case Biopsy::Phase::moving:
-      return "moving";
-    case Biopsy::Phase::at_target:
-      return "at target";
-    case Biopsy::Phase::withdrawing:
-      return "withdrawing";
-    case Biopsy::Phase::going_back:
-      return "going back";
-    case Biopsy::Phase::aborting:
-      return "aborting";
-    case Biopsy::Phase::held:
-      return "held";
-    case Biopsy::Phase::withdrawn:
-      return "withdrawn";
-    case Biopsy::Phase::aborted:
-      return "aborted";
-    case Biopsy::Phase::refused:
-      return "refused";
+    case Biopsy::Phase::waiting: return "waiting";
+    case Biopsy::Phase::touching: return "touching";
+    case Biopsy::Phase::registering: return "registering";
+    case Biopsy::Phase::asking: return "asking";
+    case Biopsy::Phase::moving: return "moving";
+    case Biopsy::Phase::at_target: return "at target";
+    case Biopsy::Phase::withdrawing: return "withdrawing";
+    case Biopsy::Phase::going_back: return "going back";
+    case Biopsy::Phase::aborting: return "aborting";
+    case Biopsy::Phase::held: return "held";
+    case Biopsy::Phase::withdrawn: return "withdrawn";
+    case Biopsy::Phase::aborted: return "aborted";
+    case Biopsy::Phase::refused: return "refused";
   }
   return "";
 }

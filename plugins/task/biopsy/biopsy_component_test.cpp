@@ -66,7 +66,6 @@ class BiopsyComponentTest : public testing::Test {
       built_plugins(),
       {.component = "{plugin: task/biopsy, params: {auto_confirm: true}}",
        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
-       .rig = {},
        .written = {"markers"}}};
   double now_s_ = 100;
 };
@@ -268,10 +267,10 @@ TEST_F(BiopsyComponentTest, SaysWhyItDoesNotGoOn) {
 
 TEST(BiopsyPorts, MarkersComeFromSomebodyOrAreTouched) {
   const auto refused = [](const std::string& params) {
-    return refusal_of(built_plugins(),
-                      {.component = "{plugin: task/biopsy, params: {" + params + "}}",
-                       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
-                       .rig = {}});
+    return refusal_of(
+        built_plugins(),
+        {.component = "{plugin: task/biopsy, params: {" + params + "}}",
+         .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml")});
   };
   EXPECT_EQ(refused("touch_markers: false"),
             "nobody writes its input 'markers': add a component that measures markers, or have "
@@ -282,8 +281,7 @@ TEST(BiopsyPorts, MarkersComeFromSomebodyOrAreTouched) {
 TEST(BiopsyRobot, WithoutBodiesIsRefusedAsNothingOfItWouldKeepOutOfTheHead) {
   EXPECT_EQ(refusal_of(built_plugins(),
                        {.component = "{plugin: task/biopsy, params: {touch_markers: true}}",
-                        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"),
-                        .rig = {}}),
+                        .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml")}),
             "robot med7 states no bodies of its links, and nothing would keep them out of the "
             "vessels and the head; state them in its file under capsules (docs/robot_file.md)");
 }
@@ -292,8 +290,7 @@ TEST(BiopsyParams, MarkersWithoutAnErrorAreNoStatement) {
   const std::string refused =
       refusal_of(built_plugins(),
                  {.component = "{plugin: task/biopsy, params: {marker_error_mm: 0}}",
-                  .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
-                  .rig = {}});
+                  .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml")});
   EXPECT_NE(refused.find("marker_error_mm"), std::string::npos) << refused;
 }
 

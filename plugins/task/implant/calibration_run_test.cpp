@@ -13,7 +13,6 @@ namespace armature::task::implant {
 namespace {
 
 using Eigen::Isometry3d;
-using Eigen::Vector3d;
 
 constexpr Time calibration_time(double s) { return Time{} + seconds(s); }
 

@@ -146,8 +146,7 @@ Expected<void> Guidance::update(Time now) {
       if (jaw_.located() && flange_.samples() >= flange_samples()) return finish_place();
       return guard(now);
     case Step::registration:
-    case Step::complete:
-      return {};
+    case Step::complete: return {};
   }
   return {};
 }

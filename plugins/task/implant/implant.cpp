@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <utility>
 
 namespace armature::task::implant {
 namespace {
@@ -112,8 +111,7 @@ void Implant::update(Time now) {
     case Phase::pivoting:
     case Phase::calibrating:
     case Phase::registering:
-    case Phase::locating:
-      return find(now);
+    case Phase::locating: return find(now);
     case Phase::approaching:
     case Phase::drilling:
     case Phase::placing:
@@ -136,8 +134,7 @@ void Implant::update(Time now) {
     case Phase::placed:
     case Phase::held:
     case Phase::aborted:
-    case Phase::refused:
-      break;
+    case Phase::refused: break;
   }
 }
 
@@ -163,15 +160,14 @@ void Implant::find(Time now) {
       }
       return enter_approach(now);
     case Guidance::Step::pivot:
-    case Guidance::Step::place:
-      return;
+    case Guidance::Step::place: return;
   }
 }
 
 void Implant::go_on_calibrating() {
   if (sent_to_ == guidance_.calibration().number()) return;
   sent_to_ = guidance_.calibration().number();
-  goal_.set({.pose = *guidance_.calibration().destination(), .focus = {}});
+  goal_.set({.pose = *guidance_.calibration().destination()});
 }
 
 void Implant::plan_rounds() {
@@ -221,11 +217,8 @@ void Implant::set_out(Time now) {
   set_out_ = true;
   const SiteWay& way = rounds_[round_].way;
   switch (phase_) {
-    case Phase::approaching:
-      return goal_.set_once({.pose = way.above.front()});
-    case Phase::withdrawing:
-      homing_ = false;
-      return lead_out();
+    case Phase::approaching: return goal_.set_once({.pose = way.above.front()});
+    case Phase::withdrawing: homing_ = false; return lead_out();
     default:
       if (pass().turns) {
         const std::size_t site = pass().site;
@@ -291,17 +284,14 @@ void Implant::finish_round(Time now) {
 
 bool Implant::near_the_jaw() const {
   switch (phase_) {
-    case Phase::approaching:
-      return set_out_;
+    case Phase::approaching: return set_out_;
     case Phase::drilling:
     case Phase::placing:
     case Phase::withdrawing:
     case Phase::going_back:
     case Phase::held:
-    case Phase::aborting:
-      return true;
-    default:
-      return false;
+    case Phase::aborting: return true;
+    default: return false;
   }
 }
 
@@ -318,43 +308,27 @@ void Implant::refuse(const std::string& why) {
   }
   const bool on_its_way =
       goal_.state() == PursuedGoal::State::waiting || goal_.state() == PursuedGoal::State::moving;
-  if (on_its_way) goal_.set({.mode = MotionMode::hold, .pose = {}, .focus = {}});
+  if (on_its_way) goal_.set({.mode = MotionMode::hold, .pose = {}});
 }
 
 const char* to_string(Implant::Phase phase) {
   switch (phase) {
-    case Implant::Phase::pivoting:
-      return "pivoting";
-    case Implant::Phase::calibrating:
-      return "calibrating";
-    case Implant::Phase::registering:
-      return "registering";
-    case Implant::Phase::locating:
-      return "locating";
-    case Implant::Phase::approaching:
-      return "approaching";
-    case Implant::Phase::drilling:
-      return "drilling";
-    case Implant::Phase::placing:
-      return "placing";
-    case Implant::Phase::withdrawing:
-      return "withdrawing";
-    case Implant::Phase::changing_tool:
-      return "changing tool";
-    case Implant::Phase::drilled:
-      return "drilled";
-    case Implant::Phase::placed:
-      return "placed";
-    case Implant::Phase::going_back:
-      return "going back";
-    case Implant::Phase::held:
-      return "held";
-    case Implant::Phase::aborting:
-      return "aborting";
-    case Implant::Phase::aborted:
-      return "aborted";
-    case Implant::Phase::refused:
-      return "refused";
+    case Implant::Phase::pivoting: return "pivoting";
+    case Implant::Phase::calibrating: return "calibrating";
+    case Implant::Phase::registering: return "registering";
+    case Implant::Phase::locating: return "locating";
+    case Implant::Phase::approaching: return "approaching";
+    case Implant::Phase::drilling: return "drilling";
+    case Implant::Phase::placing: return "placing";
+    case Implant::Phase::withdrawing: return "withdrawing";
+    case Implant::Phase::changing_tool: return "changing tool";
+    case Implant::Phase::drilled: return "drilled";
+    case Implant::Phase::placed: return "placed";
+    case Implant::Phase::going_back: return "going back";
+    case Implant::Phase::held: return "held";
+    case Implant::Phase::aborting: return "aborting";
+    case Implant::Phase::aborted: return "aborted";
+    case Implant::Phase::refused: return "refused";
   }
   return "";
 }

@@ -29,8 +29,7 @@ class ImplantComponentTest : public testing::Test {
     return {.component =
                 "{plugin: task/implant, params: {pivot_s: 0.5, calibration_poses: 6, "
                 "min_poses: 6, samples_per_pose: 1, jaw_samples: 2, auto_confirm: true}}",
-            .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/" + robot),
-            .rig = {}};
+            .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/" + robot)};
   }
   msg::TrackedBody body(const Isometry3d& pose) const {
     msg::TrackedBody message;
@@ -295,8 +294,7 @@ TEST(ImplantParams, ThatContradictEachOtherAreRefused) {
   const auto refusal = [](const std::string& params) {
     return refusal_of(built_plugins(),
                       {.component = "{plugin: task/implant, params: {" + params + "}}",
-                       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml"),
-                       .rig = {}});
+                       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml")});
   };
   EXPECT_EQ(refusal("calibration_poses: 3, min_poses: 12"),
             "bench:1:73: 'min_poses' is 12, above 'calibration_poses', which is 3");

@@ -18,17 +18,14 @@ Expected<void> Implant::hear(const OperatorCommand& command, Time now) {
 Expected<void> Implant::go_back(Time now) {
   switch (phase_) {
     case Phase::going_back:
-    case Phase::aborting:
-      return armature::refuse("the tool goes back already");
+    case Phase::aborting: return armature::refuse("the tool goes back already");
     case Phase::withdrawing:
     case Phase::changing_tool:
       return armature::refuse("the sites are drilled, or served: the tool is out");
     case Phase::approaching:
     case Phase::drilling:
-    case Phase::placing:
-      break;
-    default:
-      return armature::refuse("before the approach there is no step to go back to");
+    case Phase::placing: break;
+    default: return armature::refuse("before the approach there is no step to go back to");
   }
   const bool again = phase_ == Phase::approaching || (pass_ == 0 && !set_out_);
   const bool placed = placing() && (set_out_ ? !pass().asks && !pass().turns : pass().asks);

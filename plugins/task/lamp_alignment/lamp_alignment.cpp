@@ -39,23 +39,15 @@ std::size_t window_of(const Parameters& parameters) {
 
 const char* to_string(LampAlignment::Phase phase) {
   switch (phase) {
-    case LampAlignment::Phase::checking_light:
-      return "checking light";
-    case LampAlignment::Phase::searching:
-      return "searching";
-    case LampAlignment::Phase::aligning:
-      return "aligning";
-    case LampAlignment::Phase::holding:
-      return "holding";
-    case LampAlignment::Phase::following:
-      return "following";
+    case LampAlignment::Phase::checking_light: return "checking light";
+    case LampAlignment::Phase::searching: return "searching";
+    case LampAlignment::Phase::aligning: return "aligning";
+    case LampAlignment::Phase::holding: return "holding";
+    case LampAlignment::Phase::following: return "following";
     case LampAlignment::Phase::no_view:
-    case LampAlignment::Phase::unreachable:
-      return "unreachable";
-    case LampAlignment::Phase::aborting:
-      return "aborting";
-    case LampAlignment::Phase::aborted:
-      return "aborted";
+    case LampAlignment::Phase::unreachable: return "unreachable";
+    case LampAlignment::Phase::aborting: return "aborting";
+    case LampAlignment::Phase::aborted: return "aborted";
   }
   return "";
 }
@@ -114,12 +106,8 @@ void LampAlignment::step(Time now) {
     case Phase::checking_light:
       if (face_.latest() && may_align()) align_with(latest(), Phase::aligning, now);
       break;
-    case Phase::searching:
-      search(now);
-      break;
-    case Phase::no_view:
-      wait_for_a_view(now);
-      break;
+    case Phase::searching: search(now); break;
+    case Phase::no_view: wait_for_a_view(now); break;
     case Phase::aligning:
     case Phase::following:
       if (goes_along_) {
@@ -128,17 +116,10 @@ void LampAlignment::step(Time now) {
         come_to_rest(now);
       }
       break;
-    case Phase::holding:
-      hold(now);
-      break;
-    case Phase::unreachable:
-      wait_for_another_face_position(now);
-      break;
-    case Phase::aborting:
-      end_abort();
-      break;
-    case Phase::aborted:
-      break;
+    case Phase::holding: hold(now); break;
+    case Phase::unreachable: wait_for_another_face_position(now); break;
+    case Phase::aborting: end_abort(); break;
+    case Phase::aborted: break;
   }
 }
 

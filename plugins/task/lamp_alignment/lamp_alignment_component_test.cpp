@@ -21,8 +21,7 @@ constexpr double kPeriod_s = 0.02;
 ComponentHarness::Options task_with(const std::string& params) {
   return {
       .component = "{plugin: task/lamp_alignment, params: {auto_confirm: true, " + params + "}}",
-      .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
-      .rig = {}};
+      .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml")};
 }
 
 class LampAlignmentComponentTest : public testing::Test {

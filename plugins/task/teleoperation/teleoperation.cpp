@@ -30,15 +30,11 @@ void Teleoperation::see(const ConsoleView& view, Time now) {
   const bool leader_waits = procedure_.paused() && phase_ == Phase::waiting;
   if (leader_waits) return;
   switch (phase_) {
-    case Phase::waiting:
-      return align(view, now);
-    case Phase::aligning:
-      return judge_alignment(view, now);
+    case Phase::waiting: return align(view, now);
+    case Phase::aligning: return judge_alignment(view, now);
     case Phase::aborted:
-    case Phase::refused:
-      return;
-    default:
-      return follow_hand(view, filter_hand(view, now), now);
+    case Phase::refused: return;
+    default: return follow_hand(view, filter_hand(view, now), now);
   }
 }
 
@@ -192,8 +188,7 @@ Expected<void> Teleoperation::hear(const OperatorCommand& command) {
   if (!word) return tl::unexpected{word.error()};
   const bool leader_moves = phase_ == Phase::waiting || phase_ == Phase::aligning;
   switch (*word) {
-    case OperatorWord::confirm:
-      break;
+    case OperatorWord::confirm: break;
     case OperatorWord::pause:
       if (leader_moves) leader_goal_.pause();
       if (phase_ == Phase::teleoperating) stop_follower(Phase::held, "");
@@ -237,22 +232,14 @@ void Teleoperation::refuse(std::string why) {
 
 const char* to_string(Teleoperation::Phase phase) {
   switch (phase) {
-    case Teleoperation::Phase::waiting:
-      return "waiting";
-    case Teleoperation::Phase::aligning:
-      return "aligning";
-    case Teleoperation::Phase::aligned:
-      return "aligned";
-    case Teleoperation::Phase::teleoperating:
-      return "teleoperating";
-    case Teleoperation::Phase::clutch_open:
-      return "clutch open";
-    case Teleoperation::Phase::held:
-      return "held";
-    case Teleoperation::Phase::aborted:
-      return "aborted";
-    case Teleoperation::Phase::refused:
-      return "refused";
+    case Teleoperation::Phase::waiting: return "waiting";
+    case Teleoperation::Phase::aligning: return "aligning";
+    case Teleoperation::Phase::aligned: return "aligned";
+    case Teleoperation::Phase::teleoperating: return "teleoperating";
+    case Teleoperation::Phase::clutch_open: return "clutch open";
+    case Teleoperation::Phase::held: return "held";
+    case Teleoperation::Phase::aborted: return "aborted";
+    case Teleoperation::Phase::refused: return "refused";
   }
   return "";
 }

@@ -61,10 +61,9 @@ class TeleoperationComponentTest : public testing::Test {
     step();
   }
 
-  ComponentHarness task_{built_plugins(),
-                         {.component = "{plugin: task/teleoperation, params: {auto_confirm: true}}",
-                          .robot = {},
-                          .rig = {}}};
+  ComponentHarness task_{
+      built_plugins(),
+      {.component = "{plugin: task/teleoperation, params: {auto_confirm: true}}", .robot = {}}};
   const Eigen::Isometry3d follower_T_leader_ =
       Eigen::Translation3d{0.6, 0, 0} * Eigen::AngleAxisd{M_PI / 2, Vector3d::UnitZ()};
   Eigen::Isometry3d follower_T_tool_{Eigen::Translation3d{0.5, 0.1, 0.2}};

@@ -123,22 +123,14 @@ void Tour::leave(Time now) {
 
 const char* to_string(Tour::Phase phase) {
   switch (phase) {
-    case Tour::Phase::waiting:
-      return "waiting";
-    case Tour::Phase::asking:
-      return "asking";
-    case Tour::Phase::moving:
-      return "moving";
-    case Tour::Phase::resting:
-      return "resting";
-    case Tour::Phase::aborting:
-      return "aborting";
-    case Tour::Phase::aborted:
-      return "aborted";
-    case Tour::Phase::done:
-      return "done";
-    case Tour::Phase::refused:
-      return "refused";
+    case Tour::Phase::waiting: return "waiting";
+    case Tour::Phase::asking: return "asking";
+    case Tour::Phase::moving: return "moving";
+    case Tour::Phase::resting: return "resting";
+    case Tour::Phase::aborting: return "aborting";
+    case Tour::Phase::aborted: return "aborted";
+    case Tour::Phase::done: return "done";
+    case Tour::Phase::refused: return "refused";
   }
   return "";
 }

@@ -18,8 +18,7 @@ const std::string kRobots = ARMATURE_SOURCE_DIR "/configs/robots/";
 
 ComponentHarness::Options tour_of(const std::string& robot, const std::string& params) {
   return {.component = "{plugin: task/waypoints, params: {auto_confirm: true, " + params + "}}",
-          .robot = config::load(kRobots + robot),
-          .rig = {}};
+          .robot = config::load(kRobots + robot)};
 }
 
 class WaypointsComponentTest : public testing::Test {

@@ -24,7 +24,7 @@ class BusReportTest : public testing::Test {
             .plain_picture = times(200e-6),
             .picture = times(200e-6 + factor * 29e-6)};
   }
-  BusReport report_{.options = {}, .machine = {}, .rounds = {round(0), round(1), round(9)}};
+  BusReport report_{.options = {}, .rounds = {round(0), round(1), round(9)}};
 };
 
 TEST_F(BusReportTest, ComparesWhatWasMeasuredInTheSameRound) {

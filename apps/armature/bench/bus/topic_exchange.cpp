@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <mutex>
 #include <utility>
 
 #include "armature/messages/sensor_msgs.hpp"

@@ -31,9 +31,7 @@ plot::Curve curve_of(const Series& series, std::size_t in_legend) {
 
 std::string plot_of(const Report& report, const std::vector<Series>& series) {
   plot::Chart chart{.title = fmt::format("Inverse kinematics of {}", report.robot),
-                    .legend = {},
-                    .x = {.label = "time of a solve [us]", .is_logarithmic = true},
-                    .panels = {}};
+                    .x = {.label = "time of a solve [us]", .is_logarithmic = true}};
   plot::Panel& panel = chart.panels.emplace_back();
   panel.y.label = fmt::format(
       "part of {} goals that were answered in this time [%]; {}; {}; the least of {} repetitions",

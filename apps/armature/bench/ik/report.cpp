@@ -10,7 +10,7 @@ namespace armature::bench {
 namespace {
 
 Row row_of(const Series& series) {
-  Row row{.plugin = series.plugin, .seeds = series.seeds, .times_base = {}};
+  Row row{.plugin = series.plugin, .seeds = series.seeds};
   const std::vector<double> seconds = series.seconds();
   row.median_s = quantile(seconds, 0.5);
   row.p99_s = quantile(seconds, 0.99);

@@ -157,11 +157,7 @@ int bench_loop(const LoopBenchOptions& options) {
   const auto cpus = bench::two_cpus();
   const bench::LoopSettings settings{
       .period_s = options.period_s, .priority = options.priority, .domain = options.domain};
-  LoopReport report{.options = options,
-                    .machine = bench::this_machine(),
-                    .notes = {},
-                    .noise = {},
-                    .watched = {}};
+  LoopReport report{.options = options, .machine = bench::this_machine(), .notes = {}, .noise = {}};
   report.watched.emplace_back();
   if (options.readers > 0) report.watched.push_back({.readers = options.readers});
   if (options.everything) {

@@ -23,7 +23,6 @@ class LoopReportTest : public testing::Test {
  protected:
   LoopReport report_{
       .options = {.readers = 0, .rounds = 3},
-      .machine = {},
       .notes = {"executor 'control' runs without priority 80"},
       .noise = {round(12e-6, 10e-6), round(12e-6, 10e-6), round(5e-6, 10e-6)},
       .watched = {{.readers = 4,

@@ -46,7 +46,7 @@ Twin::~Twin() {
 }
 
 void Twin::loop() {
-  prepare_thread({.name = "twin", .priority = settings_.priority, .cpu = {}, .has_period = true});
+  prepare_thread({.name = "twin", .priority = settings_.priority, .has_period = true});
   msg::JointState state;
   const auto period_ns = static_cast<std::int64_t>(settings_.period_s * 1e9);
   std::int64_t release = now_ns();

@@ -22,8 +22,7 @@ Eigen::Vector3d jittered(int i) {
 std::optional<FinderBias::Features> FinderBias::measure(const scene::Photo& photo) {
   scene::SceneRenderer renderer{photo, {}, {.noise = 0, .blur_px = 0, .background = 120}, 1};
   Picture picture = Picture::of_one_grey(0, kCamera.width, kCamera.height);
-  const SearchRegion everywhere{.box = {0, 0, kCamera.width - 1.0, kCamera.height - 1.0},
-                                .face_width = {}};
+  const SearchRegion everywhere{.box = {0, 0, kCamera.width - 1.0, kCamera.height - 1.0}};
   Features sum{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   for (int i = 0; i < kPictures; ++i) {
     const Eigen::Vector3d mouth = jittered(i);

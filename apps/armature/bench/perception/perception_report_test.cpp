@@ -88,7 +88,6 @@ TEST(PerceptionReport, IsTheSameAsTableAsJsonAndAsCsv) {
                                 .deployment = "dental_lamp",
                                 .rig = "default",
                                 .seed = 5,
-                                .machine = {},
                                 .rows = rows_of(results),
                                 .stages = stages_of(results)};
   const std::string text = table(report);

@@ -58,8 +58,6 @@ int bench_plan(const PlanBenchOptions& options) {
                     .seed = options.seed,
                     .repetitions = options.repetitions,
                     .machine = bench::this_machine(),
-                    .plans = {},
-                    .interpolators = {},
                     .refused = {}};
   const Field field = field_of(options, registry, report);
   Progress progress{"plans"};

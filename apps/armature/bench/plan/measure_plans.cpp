@@ -70,7 +70,7 @@ class Race {
 
 PlanRow row_of(const std::string& name, Shape shape, const std::vector<Motion>& motions,
                const std::vector<Timed>& all) {
-  PlanRow row{.name = name, .shape = shape, .times_least = {}};
+  PlanRow row{.name = name, .shape = shape};
   std::vector<double> plan, sample, times;
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (!all[i].planned) continue;

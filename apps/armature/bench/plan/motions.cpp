@@ -55,7 +55,6 @@ std::vector<Motion> motions(const RobotModel& model, Shape shape, int count, std
     motion.request = {.goal_id = 1,
                       .start = {},
                       .from = {from, zero, zero},
-                      .segments = {},
                       .max_velocity = model.max_velocity(),
                       .max_acceleration = model.max_acceleration()};
     motion.request.segments.push_back(shape == Shape::point_to_point

@@ -19,12 +19,9 @@ std::size_t place(Watching watching) { return static_cast<std::size_t>(watching)
 
 std::string title(Watching watching, const WatchedBenchOptions& options) {
   switch (watching) {
-    case Watching::alone:
-      return "alone";
-    case Watching::recorded:
-      return "recorded by itself";
-    case Watching::read:
-      return fmt::format("read by a recorder and {} others", options.readers);
+    case Watching::alone: return "alone";
+    case Watching::recorded: return "recorded by itself";
+    case Watching::read: return fmt::format("read by a recorder and {} others", options.readers);
   }
   return {};
 }

@@ -24,7 +24,6 @@ class WatchedReportTest : public testing::Test {
   }
   WatchedReport report_{
       .options = {},
-      .machine = {},
       .rounds = {round(0.4, 0.404, 0.41), round(0.5, 0.6, 0.51), round(0.4, 0.4, 0.4)}};
 };
 

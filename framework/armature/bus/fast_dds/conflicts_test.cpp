@@ -72,11 +72,8 @@ class SecondWriter : public testing::Test {
   }
 
   const TopicSpec topic_{"rt/lamp/beat", &message_type<msg::JointState>(), QosProfile::state};
-  const Endpoint stranger_{.guid = {},
-                           .writes = true,
-                           .topic = topic_.name,
-                           .type = std::string{topic_.type->dds_name},
-                           .tag = {}};
+  const Endpoint stranger_{
+      .guid = {}, .writes = true, .topic = topic_.name, .type = std::string{topic_.type->dds_name}};
   std::vector<std::string> reported_;
   Conflicts conflicts_{
       EndpointTag{.ours = true, .deployment = "lamp", .fingerprint = "f00d", .run = {}},

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 
-#include <algorithm>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 

@@ -87,24 +87,15 @@ Expected<std::unique_ptr<RemoteReader>> FastDdsTransport::subscribe(
 std::string qos_policy_name(std::uint32_t policy_id) {
   // Numbers of the DDS specification, table 2.2.3.
   switch (policy_id) {
-    case 2:
-      return "durability";
-    case 4:
-      return "deadline";
-    case 5:
-      return "latency budget";
-    case 6:
-      return "ownership";
-    case 8:
-      return "liveliness";
-    case 11:
-      return "reliability";
-    case 12:
-      return "destination order";
-    case 23:
-      return "data representation";
-    default:
-      return "policy " + std::to_string(policy_id);
+    case 2: return "durability";
+    case 4: return "deadline";
+    case 5: return "latency budget";
+    case 6: return "ownership";
+    case 8: return "liveliness";
+    case 11: return "reliability";
+    case 12: return "destination order";
+    case 23: return "data representation";
+    default: return "policy " + std::to_string(policy_id);
   }
 }
 

@@ -18,7 +18,7 @@ inline GuidPrefix prefix_of(const eprosima::fastrtps::rtps::GuidPrefix_t& prefix
 }
 
 inline Guid guid_of(const eprosima::fastrtps::rtps::GUID_t& guid) {
-  Guid copy{.participant = prefix_of(guid.guidPrefix), .entity = {}};
+  Guid copy{.participant = prefix_of(guid.guidPrefix)};
   std::copy(std::begin(guid.entityId.value), std::end(guid.entityId.value), copy.entity.begin());
   return copy;
 }

@@ -183,11 +183,8 @@ Expected<std::unique_ptr<DdsObserver>> DdsObserver::make(const ObserverOptions& 
   // interfaces joined Fast DDS does not tell its loopback address, and programs that know no other
   // meet it in shared memory only.
   network.shared_memory = network.shared_memory && !network.interfaces.empty();
-  auto participant = Participant::make({.network = std::move(network),
-                                        .name = "armature observer",
-                                        .watcher = {},
-                                        .on_note = {},
-                                        .sees_all = true});
+  auto participant = Participant::make(
+      {.network = std::move(network), .name = "armature observer", .sees_all = true});
   if (!participant) return tl::unexpected{participant.error()};
   return std::make_unique<Observer>(std::move(*participant), options.asks_again);
 }

@@ -2,9 +2,7 @@
 // Writers that come and go for ever leave nothing behind that grows.
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
-#include <numeric>
 
 #include "armature/bus/fast_dds/refusal_counts.hpp"
 #include "armature/bus/fast_dds/sequence_gaps.hpp"

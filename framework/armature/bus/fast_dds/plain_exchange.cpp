@@ -24,7 +24,6 @@
 #include <fastdds/dds/topic/TypeSupport.hpp>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/receive_buffer.hpp"

@@ -37,24 +37,18 @@ bool fits_int(const ParamSpec& spec) {
 
 std::string type_of(const ParamSpec& spec, const std::string& member) {
   switch (spec.type) {
-    case Type::number:
-      return "double";
+    case Type::number: return "double";
     case Type::integer:
       return fits_int(spec) ? "int" : spec.min && *spec.min >= 0 ? "std::uint64_t" : "std::int64_t";
-    case Type::flag:
-      return "bool";
-    case Type::choice:
-      return camel_case(member);
+    case Type::flag: return "bool";
+    case Type::choice: return camel_case(member);
     case Type::text:
-    case Type::file:
-      return "std::string";
+    case Type::file: return "std::string";
     case Type::numbers:
       return spec.count ? fmt::format("std::array<double, {}>", *spec.count)
                         : "std::vector<double>";
-    case Type::texts:
-      return "std::vector<std::string>";
-    case Type::section:
-      break;  // of files, not of parameters
+    case Type::texts: return "std::vector<std::string>";
+    case Type::section: break;  // of files, not of parameters
   }
   return "";
 }
@@ -66,8 +60,7 @@ std::string read_of(const ParamSpec& spec, const std::string& type) {
     case Type::flag:
     case Type::text:
     case Type::file:
-    case Type::texts:
-      return fmt::format("params.{}(\"{}\")", to_string(spec.type), spec.name);
+    case Type::texts: return fmt::format("params.{}(\"{}\")", to_string(spec.type), spec.name);
     case Type::integer:
     case Type::choice:
       return fmt::format("static_cast<{}>(params.{}(\"{}\"))", type, to_string(spec.type),
@@ -75,8 +68,7 @@ std::string read_of(const ParamSpec& spec, const std::string& type) {
     case Type::numbers:
       return spec.count ? fmt::format("params.numbers<{}>(\"{}\")", *spec.count, spec.name)
                         : fmt::format("params.numbers(\"{}\")", spec.name);
-    case Type::section:
-      break;
+    case Type::section: break;
   }
   return "";
 }
@@ -90,18 +82,12 @@ std::string double_text(double value) {
 std::string default_of(const ParamSpec& spec, const Params& defaults) {
   if (!spec.fallback) return "";
   switch (spec.type) {
-    case Type::number:
-      return double_text(defaults.number(spec.name));
-    case Type::integer:
-      return fmt::format("{}", defaults.integer(spec.name));
-    case Type::flag:
-      return defaults.flag(spec.name) ? "true" : "false";
-    case Type::choice:
-      return in_cpp(defaults.text(spec.name));
-    case Type::text:
-      return literal_of(defaults.text(spec.name));
-    case Type::file:
-      return literal_of(defaults.file(spec.name));
+    case Type::number: return double_text(defaults.number(spec.name));
+    case Type::integer: return fmt::format("{}", defaults.integer(spec.name));
+    case Type::flag: return defaults.flag(spec.name) ? "true" : "false";
+    case Type::choice: return in_cpp(defaults.text(spec.name));
+    case Type::text: return literal_of(defaults.text(spec.name));
+    case Type::file: return literal_of(defaults.file(spec.name));
     case Type::numbers: {
       std::vector<std::string> numbers;
       for (const double number : defaults.numbers(spec.name)) {
@@ -114,8 +100,7 @@ std::string default_of(const ParamSpec& spec, const Params& defaults) {
       for (const std::string& text : defaults.texts(spec.name)) texts.push_back(literal_of(text));
       return fmt::format("{}", fmt::join(texts, ", "));
     }
-    case Type::section:
-      break;
+    case Type::section: break;
   }
   return "";
 }

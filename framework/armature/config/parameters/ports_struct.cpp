@@ -39,8 +39,7 @@ std::vector<Port> read_ports(const config::Node& manifest, std::string_view dire
               .message = type.substr(std::min(slash + 1, type.size())),
               .doc = map.text("doc", ""),
               .handle = direction == "in" ? "Input" : "Output",
-              .claim = direction == "in" ? "input" : "output",
-              .units = {}};
+              .claim = direction == "in" ? "input" : "output"};
     if (!type.empty() && (!is_name(port.package) || !is_name(port.message))) {
       map.problem("type", fmt::format("the type is {}, and must be package/Message",
                                       config::in_quotes(type)));

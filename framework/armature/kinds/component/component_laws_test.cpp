@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <map>
 
 #include "armature/kinds/component/laws.hpp"
 #include "armature/messages/sensor_msgs.hpp"
@@ -63,7 +62,7 @@ std::vector<std::string> broken_by(const std::string& fault) {
       .name = fault, .make = [&] {
         const std::string component = "{plugin: test/faulty, params: {fault: " + fault + "}}";
         return std::make_unique<ComponentHarness>(
-            plugins, ComponentHarness::Options{.component = component, .robot = {}, .rig = {}});
+            plugins, ComponentHarness::Options{.component = component, .robot = {}});
       }};
   std::vector<std::string> broken;
   for (const Law<ComponentSubject>& law : component_laws()) {

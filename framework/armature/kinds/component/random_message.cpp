@@ -39,32 +39,19 @@ class RandomWriter {
 
   void element(const FieldDescription& field) {
     switch (field.kind) {
-      case FieldKind::boolean:
-        return number(static_cast<std::uint8_t>(below(2)));
-      case FieldKind::octet:
-        return integer<std::uint8_t>();
-      case FieldKind::int8:
-        return integer<std::int8_t>();
-      case FieldKind::int16:
-        return integer<std::int16_t>();
-      case FieldKind::uint16:
-        return integer<std::uint16_t>();
-      case FieldKind::int32:
-        return integer<std::int32_t>();
-      case FieldKind::uint32:
-        return integer<std::uint32_t>();
-      case FieldKind::int64:
-        return integer<std::int64_t>();
-      case FieldKind::uint64:
-        return integer<std::uint64_t>();
-      case FieldKind::float32:
-        return number(static_cast<float>(real()));
-      case FieldKind::float64:
-        return number(real());
-      case FieldKind::text:
-        return text();
-      case FieldKind::structure:
-        return structure(*field.structure);
+      case FieldKind::boolean: return number(static_cast<std::uint8_t>(below(2)));
+      case FieldKind::octet: return integer<std::uint8_t>();
+      case FieldKind::int8: return integer<std::int8_t>();
+      case FieldKind::int16: return integer<std::int16_t>();
+      case FieldKind::uint16: return integer<std::uint16_t>();
+      case FieldKind::int32: return integer<std::int32_t>();
+      case FieldKind::uint32: return integer<std::uint32_t>();
+      case FieldKind::int64: return integer<std::int64_t>();
+      case FieldKind::uint64: return integer<std::uint64_t>();
+      case FieldKind::float32: return number(static_cast<float>(real()));
+      case FieldKind::float64: return number(real());
+      case FieldKind::text: return text();
+      case FieldKind::structure: return structure(*field.structure);
     }
   }
 

@@ -23,7 +23,7 @@ bool lacks_face(const DetectorSubject& subject, LawCheck& check) {
 }
 
 SearchRegion everywhere(const ImageView& view) {
-  return {.box = {0, 0, view.width - 1.0, view.height - 1.0}, .face_width = {}};
+  return {.box = {0, 0, view.width - 1.0, view.height - 1.0}};
 }
 
 std::string text(const PixelBox& box) {

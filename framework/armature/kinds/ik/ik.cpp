@@ -14,18 +14,12 @@ namespace armature {
 
 std::string_view to_string(IkStatus::Code code) {
   switch (code) {
-    case IkStatus::Code::ok:
-      return "ok";
-    case IkStatus::Code::out_of_reach:
-      return "out_of_reach";
-    case IkStatus::Code::joint_limit:
-      return "joint_limit";
-    case IkStatus::Code::singular:
-      return "singular";
-    case IkStatus::Code::no_convergence:
-      return "no_convergence";
-    case IkStatus::Code::invalid_input:
-      return "invalid_input";
+    case IkStatus::Code::ok: return "ok";
+    case IkStatus::Code::out_of_reach: return "out_of_reach";
+    case IkStatus::Code::joint_limit: return "joint_limit";
+    case IkStatus::Code::singular: return "singular";
+    case IkStatus::Code::no_convergence: return "no_convergence";
+    case IkStatus::Code::invalid_input: return "invalid_input";
   }
   return "invalid_input";
 }

@@ -165,10 +165,10 @@ StereoFaceFinder::Faces StereoFaceFinder::find_left(const ImageView& left,
     const Faces near =
         detect(left, {.box = last->scaled(kSearchScale), .face_width = last->width}, to_last);
     if (!near || *near) return near;
-    return detect(left, {.box = whole(left), .face_width = {}}, to_last);
+    return detect(left, {.box = whole(left)}, to_last);
   }
   const auto by_size = [](const PixelBox& face) { return -face.width; };
-  return detect(left, {.box = whole(left), .face_width = {}}, by_size);
+  return detect(left, {.box = whole(left)}, by_size);
 }
 
 // The pair is rectified: the right picture has the face in the same rows, further left.
@@ -187,7 +187,7 @@ StereoFaceFinder::Faces StereoFaceFinder::find_right(const ImageView& right,
   const Faces in_strip =
       detect(right, {.box = strip_of(in_left), .face_width = in_left.width}, to_left);
   if (!in_strip || *in_strip) return in_strip;
-  return detect(right, {.box = whole(right), .face_width = {}}, to_left);
+  return detect(right, {.box = whole(right)}, to_left);
 }
 
 // Where the pictures are exchanged the same face is as far to the right as it should be to the

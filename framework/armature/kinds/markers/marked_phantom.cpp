@@ -16,7 +16,6 @@ MarkedPhantom marked_phantom(double radius, const Eigen::Vector3d& spacing, doub
   MarkedPhantom phantom{
       .solids = {ball(middle, kSkin, 40), ball(middle, kBone, 1000), ball(middle, kBrain, 35)},
       .markers = {},
-      .geometry = {},
       .scanner = {.points_per_side = 4, .noise_hu = noise_hu, .seed = seed}};
   for (int i = 0; i < 6; ++i) {
     const double around = std::numbers::pi / 3 * (i + 0.3 * part(random));

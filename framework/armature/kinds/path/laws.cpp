@@ -124,8 +124,7 @@ void without_focus(const PathSubject& subject, LawCheck& check) {
   RandomPoses random{kSeed};
   if (subject.along_a_line) {
     const PathRequest request{.start = looking_at_focus(random, 0.6, 0),
-                              .goal = looking_at_focus(random, 0.5, 0),
-                              .focus = {}};
+                              .goal = looking_at_focus(random, 0.5, 0)};
     asks(0, request, check);
     check.refused(subject.planner->plan(request), "a request without a point to look at");
     return;
@@ -136,11 +135,9 @@ void without_focus(const PathSubject& subject, LawCheck& check) {
   };
   for (int i = 0; i < 100; ++i) {
     planned(i, {.start = {random.unit(), Direction{random.unit()}},
-                .goal = {random.unit(), Direction{random.unit()}},
-                .focus = {}});
+                .goal = {random.unit(), Direction{random.unit()}}});
     planned(i, {.start = {random.unit(), random.rotation()},
-                .goal = {random.unit(), random.rotation()},
-                .focus = {}});
+                .goal = {random.unit(), random.rotation()}});
   }
 }
 
@@ -189,7 +186,7 @@ void equal_requests(const PathSubject& subject, LawCheck& check) {
     const PathRequest request = towards_focus(subject, start, looking_at_focus(random, 0.5, 0));
     asks(i, request, check);
     const auto first = planner.plan(request);
-    static_cast<void>(planner.plan({.start = request.goal, .goal = request.start, .focus = {}}));
+    static_cast<void>(planner.plan({.start = request.goal, .goal = request.start}));
     const auto second = planner.plan(request);
     if (!check.answered(first, "this request") || !check.answered(second, "the same request")) {
       return;
@@ -252,8 +249,7 @@ void key_poses(const PathSubject& subject, LawCheck& check) {
   RandomPoses random{kSeed};
   for (int i = 0; i < 100; ++i) {
     PathRequest request{.start = {random.unit(), random.rotation()},
-                        .goal = {random.unit(), random.rotation()},
-                        .focus = {}};
+                        .goal = {random.unit(), random.rotation()}};
     for (int k = 0; k < 1 + i % 3; ++k) {
       request.through.push_back({random.unit(), random.rotation()});
     }

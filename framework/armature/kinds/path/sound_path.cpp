@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <cmath>
 #include <limits>
 #include <string_view>
 #include <variant>
 
 #include "armature/kinds/path/laws.hpp"
-
-#include <fmt/format.h>
 
 // What holds for every path, whatever it goes like.
 namespace armature {

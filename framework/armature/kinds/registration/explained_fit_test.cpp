@@ -8,7 +8,6 @@
 
 #include <cmath>
 #include <random>
-#include <vector>
 
 #include "armature/kinds/registration/rigid_fit.hpp"
 

@@ -26,8 +26,7 @@ RobotModel winder() {
                  .lower = -limit,
                  .upper = limit,
                  .max_velocity = 1,
-                 .max_acceleration = 1,
-                 .coupling = {}};
+                 .max_acceleration = 1};
   };
   return {{"winder",
            RobotModel::Convention::standard,

@@ -36,7 +36,6 @@ class UnderOneLaw final : public LegShape {
     Trajectory trajectory{.goal_id = request_.goal_id,
                           .dof = leg_.curve.dof(),
                           .start = request_.start,
-                          .knots = {},
                           .pieces = {}};
     trajectory.knots = knots_of(leg_.curve, law);
     trajectory.pieces = pieces_along_(leg_.curve, law, trajectory.knots);

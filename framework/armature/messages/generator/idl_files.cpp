@@ -89,10 +89,7 @@ Expected<void> IdlFiles::read(const fs::path& path, const std::string& header_fo
   text << stream.rdbuf();
   IdlFile file{.path = path,
                .header = header_folder + "/" + path.stem().string() + ".hpp",
-               .text = text.str(),
-               .includes = {},
-               .types = {},
-               .constants = {}};
+               .text = text.str()};
   for (const Included& included : includes_of(file.text)) {
     const auto header = include(included.name, {path.parent_path(), header_folder});
     if (!header) {

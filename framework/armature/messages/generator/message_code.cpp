@@ -8,32 +8,19 @@ namespace {
 
 std::string in_cpp(FieldKind kind) {
   switch (kind) {
-    case FieldKind::boolean:
-      return "bool";
-    case FieldKind::octet:
-      return "std::uint8_t";
-    case FieldKind::int8:
-      return "std::int8_t";
-    case FieldKind::int16:
-      return "std::int16_t";
-    case FieldKind::uint16:
-      return "std::uint16_t";
-    case FieldKind::int32:
-      return "std::int32_t";
-    case FieldKind::uint32:
-      return "std::uint32_t";
-    case FieldKind::int64:
-      return "std::int64_t";
-    case FieldKind::uint64:
-      return "std::uint64_t";
-    case FieldKind::float32:
-      return "float";
-    case FieldKind::float64:
-      return "double";
-    case FieldKind::text:
-      return "std::string";
-    case FieldKind::structure:
-      break;
+    case FieldKind::boolean: return "bool";
+    case FieldKind::octet: return "std::uint8_t";
+    case FieldKind::int8: return "std::int8_t";
+    case FieldKind::int16: return "std::int16_t";
+    case FieldKind::uint16: return "std::uint16_t";
+    case FieldKind::int32: return "std::int32_t";
+    case FieldKind::uint32: return "std::uint32_t";
+    case FieldKind::int64: return "std::int64_t";
+    case FieldKind::uint64: return "std::uint64_t";
+    case FieldKind::float32: return "float";
+    case FieldKind::float64: return "double";
+    case FieldKind::text: return "std::string";
+    case FieldKind::structure: break;
   }
   return "";
 }
@@ -44,10 +31,8 @@ std::string type_of(const FieldDescription& field) {
   switch (field.shape) {
     case FieldDescription::Shape::array:
       return fmt::format("std::array<{}, {}>", element, field.bound);
-    case FieldDescription::Shape::sequence:
-      return fmt::format("std::vector<{}>", element);
-    case FieldDescription::Shape::single:
-      break;
+    case FieldDescription::Shape::sequence: return fmt::format("std::vector<{}>", element);
+    case FieldDescription::Shape::single: break;
   }
   return element;
 }

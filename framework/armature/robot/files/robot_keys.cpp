@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/robot/files/robot_keys.hpp"
 
-#include <iterator>
-
 namespace armature {
 namespace {
 

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <optional>
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"

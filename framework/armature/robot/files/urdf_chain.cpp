@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 #include "armature/robot/files/joint_reader.hpp"
 
@@ -135,7 +134,7 @@ class ChainReader {
     const Isometry3d joint_T_axis = frame_along(axis.normalized());
     chain_.before_T_axis.push_back(since_axis_ * joint_T_axis);
     since_axis_ = joint_T_axis.inverse();
-    chain_.joints.push_back({.name = joint.name, .coupling = {}, .placement = {}});
+    chain_.joints.push_back({.name = joint.name});
     chain_.places.push_back(document_.joint(joint.name));
     if (joint.type == urdf::Joint::PRISMATIC) chain_.joints.back().type = Joint::Type::prismatic;
     if (joint.limits) limit(joint, chain_.joints.back());

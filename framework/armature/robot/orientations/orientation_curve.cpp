@@ -203,11 +203,9 @@ Expected<OrientationCurve> OrientationCurve::through(std::span<const Eigen::Quat
   switch (interpolator) {
     case OrientationInterpolator::slerp:
       return made(slerp(*keys, slopes, *parameters), *parameters);
-    case OrientationInterpolator::squad:
-      return made(squad(*keys, steps, *parameters), *parameters);
+    case OrientationInterpolator::squad: return made(squad(*keys, steps, *parameters), *parameters);
     case OrientationInterpolator::rotvec_bspline:
-    case OrientationInterpolator::chart_bspline:
-      break;
+    case OrientationInterpolator::chart_bspline: break;
   }
   return made(charted(blend_pieces(points, slopes, *parameters), in_base ? base : *keys),
               *parameters);
@@ -230,12 +228,9 @@ OrientationState OrientationCurve::sample(double u) const {
 
 OrientationState OrientationCurve::at(double u, Rates rates) const {
   switch (rates) {
-    case Rates::none:
-      return sample<Rates::none>(u);
-    case Rates::velocity:
-      return sample<Rates::velocity>(u);
-    case Rates::acceleration:
-      break;
+    case Rates::none: return sample<Rates::none>(u);
+    case Rates::velocity: return sample<Rates::velocity>(u);
+    case Rates::acceleration: break;
   }
   return sample<Rates::acceleration>(u);
 }

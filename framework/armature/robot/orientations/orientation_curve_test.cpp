@@ -20,7 +20,6 @@ namespace {
 using Interpolator = OrientationInterpolator;
 using Eigen::Quaterniond;
 using Keys = std::vector<Quaterniond>;
-using testing::jump_at;
 using testing::largest_jump;
 using testing::total_rotation;
 using testing::turn_between;

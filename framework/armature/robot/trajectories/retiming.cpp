@@ -130,7 +130,6 @@ Trajectory part(const Trajectory& trajectory, double from_s, double to_s) {
   Trajectory cut{.goal_id = trajectory.goal_id,
                  .dof = trajectory.dof,
                  .start = trajectory.start,
-                 .knots = {},
                  .pieces = {}};
   for (int k = 0; to - from > kSamePlace_s && k < trajectory.piece_count(); ++k) {
     const auto knot = trajectory.knots.begin() + k;

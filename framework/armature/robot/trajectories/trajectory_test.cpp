@@ -26,7 +26,7 @@ void expect_same(const JointState& a, const JointState& b, double tolerance) {
 /// A spline of three joints through random points, at rest at both ends.
 Trajectory random_trajectory(std::mt19937& random) {
   std::uniform_real_distribution<double> any{-1, 1}, step{0.2, 0.8};
-  Trajectory trajectory{.goal_id = 7, .dof = 3, .start = kEpochStart, .knots = {}, .pieces = {}};
+  Trajectory trajectory{.goal_id = 7, .dof = 3, .start = kEpochStart, .pieces = {}};
   std::vector<JointVector> points;
   double t = 0;
   for (int i = 0; i < 5; ++i, t += step(random)) {

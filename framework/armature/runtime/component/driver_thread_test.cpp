@@ -71,8 +71,7 @@ class DriverThreadTest : public testing::Test {
   std::unique_ptr<ComponentHarness> reader(const std::string& manifest) {
     plugins_.add<SlowReader>(manifest);
     return std::make_unique<ComponentHarness>(
-        plugins_,
-        ComponentHarness::Options{.component = "{plugin: test/reader}", .robot = {}, .rig = {}});
+        plugins_, ComponentHarness::Options{.component = "{plugin: test/reader}", .robot = {}});
   }
   /// Lets the device say `count` things, and waits until they are in the queue.
   void read(int count) {

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <ranges>
-#include <thread>
 #include <utility>
 
 #include "armature/config/problems.hpp"
@@ -80,7 +79,7 @@ Deployment::Deployment(DeploymentConfig config, PluginRegistry& plugins, Options
   make_own_units(plugins);
   if (std::ranges::find(config_.executors, kRuntimeExecutor, &ExecutorSpec::name) ==
       config_.executors.end()) {
-    config_.executors.push_back({.name = std::string{kRuntimeExecutor}, .period = {}, .cpu = {}});
+    config_.executors.push_back({.name = std::string{kRuntimeExecutor}, .period = {}});
   }
   assign_runners();
 }

@@ -28,12 +28,9 @@ struct Provider {
 bool holds(const Capability& capability, const Provider& provider) {
   if (capability.when.empty()) return true;
   switch (std::ranges::find(provider.manifest->params, capability.when, &ParamSpec::name)->type) {
-    case ParamSpec::Type::flag:
-      return provider.params->flag(capability.when);
-    case ParamSpec::Type::integer:
-      return provider.params->integer(capability.when) != 0;
-    default:
-      return provider.params->number(capability.when) != 0;
+    case ParamSpec::Type::flag: return provider.params->flag(capability.when);
+    case ParamSpec::Type::integer: return provider.params->integer(capability.when) != 0;
+    default: return provider.params->number(capability.when) != 0;
   }
 }
 

@@ -43,8 +43,7 @@ void add_unit_executors(DeploymentConfig& deployment) {
     const bool known = std::ranges::find(deployment.executors, component.executor,
                                          &ExecutorSpec::name) != deployment.executors.end();
     if (known || component.unit == kMainUnit) continue;
-    deployment.executors.push_back(
-        {.name = component.executor, .period = {}, .priority = 0, .cpu = {}});
+    deployment.executors.push_back({.name = component.executor, .period = {}, .priority = 0});
   }
 }
 

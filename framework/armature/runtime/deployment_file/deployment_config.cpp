@@ -119,7 +119,7 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
   std::vector<ExecutorSpec> executors;
   for (const auto& [name, name_origin, value] : section) {
     MapReader map{value, fmt::format("executor '{}'", name), executor_keys(), problems};
-    ExecutorSpec spec{.name = name, .period = {}, .priority = 0, .cpu = {}};
+    ExecutorSpec spec{.name = name, .period = {}, .priority = 0};
     if (const auto period = map.optional_number("period_s")) spec.period = seconds(*period);
     spec.priority = static_cast<int>(map.integer("priority"));
     if (const auto cpu = map.optional_integer("cpu")) spec.cpu = read_cpu(map, *cpu);
@@ -129,8 +129,7 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
   }
   const auto is_main = [](const ExecutorSpec& spec) { return spec.name == kMainExecutor; };
   if (std::none_of(executors.begin(), executors.end(), is_main)) {
-    executors.push_back(
-        {.name = std::string{kMainExecutor}, .period = {}, .priority = 0, .cpu = {}});
+    executors.push_back({.name = std::string{kMainExecutor}, .period = {}, .priority = 0});
   }
   return executors;
 }

@@ -134,11 +134,7 @@ std::vector<SweepGoal> read_sweep_goals(const config::Node* section, const std::
       if (!node) continue;
       ++count;
       has_share |= statistic == SweepGoal::Statistic::share;
-      SweepGoal goal{.metric = entry.key,
-                     .statistic = statistic,
-                     .at_least = {},
-                     .at_most = {},
-                     .origin = entry.key_origin};
+      SweepGoal goal{.metric = entry.key, .statistic = statistic, .origin = entry.key_origin};
       read_bounds(*node, goal, problems);
       sweep_goals.push_back(std::move(goal));
     }

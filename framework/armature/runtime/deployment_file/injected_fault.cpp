@@ -75,12 +75,10 @@ void InjectedFault::listen() {
 void InjectedFault::strike_if_armed() const {
   if (!g_armed.load(std::memory_order_relaxed)) return;
   switch (kind_) {
-    case Kind::throws:
-      throw std::runtime_error{"a drill's fault"};
+    case Kind::throws: throw std::runtime_error{"a drill's fault"};
     case Kind::hangs:
       while (true) pause();
-    case Kind::crashes:
-      std::raise(SIGSEGV);
+    case Kind::crashes: std::raise(SIGSEGV);
   }
 }
 

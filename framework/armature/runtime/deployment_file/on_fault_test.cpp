@@ -113,7 +113,7 @@ TEST_F(OnFaultTest, WhoSharesTheDriversExecutorWithoutNeedIsTold) {
                 "component 'arm' moves an arm and shares the executor 'main' with camera, task, "
                 "monitor, recorder, report: when a step of theirs is long or hangs, the arm waits; "
                 "name another executor for them"});
-  deployment_.executors.push_back({.name = "control", .period = seconds(0.001), .cpu = {}});
+  deployment_.executors.push_back({.name = "control", .period = seconds(0.001)});
   for (const char* name : {"task", "motion", "arm"}) component(name).executor = "control";
   EXPECT_TRUE(executor_warnings(deployment_).empty()) << "what leads there may keep its pace";
   add("other_arm", arm_, {}, {});

@@ -97,7 +97,7 @@ TEST_F(AllocationTest, NoneInAnExecutorsCycle) {
     ++steps;
   });
   InputPort& trigger = runner->inbox().add({.name = "in", .trigger = true}, type_);
-  Executor executor{{.name = "control", .period = seconds(0.001), .cpu = {}}, clock};
+  Executor executor{{.name = "control", .period = seconds(0.001)}, clock};
   executor.assign(*runner);
   executor.start([](const std::string&) {});
   while (steps < 200) trigger.deliver(sample(Time{1}));

@@ -25,7 +25,6 @@ void Executor::assign(ComponentRunner& runner) {
   std::atomic<std::int64_t>* triggered_ns = triggers_.back().get();
   entries_.push_back({.runner = &runner,
                       .period = spec_.period ? spec_.period : runner.period(),
-                      .next_release = {},
                       .triggered_ns = triggered_ns});
   std::sort(entries_.begin(), entries_.end(),
             [](const Entry& a, const Entry& b) { return a.runner->place() < b.runner->place(); });

@@ -101,7 +101,7 @@ TEST_F(ExecutorTest, ItsThreadHasItsNameAndIsPinnedToItsCpu) {
 }
 
 TEST_F(ExecutorTest, WithoutACpuItMayRunOnAll) {
-  const Scheduling seen = run({.name = "vision", .period = {}, .priority = 0, .cpu = {}});
+  const Scheduling seen = run({.name = "vision", .period = {}, .priority = 0});
   EXPECT_EQ(seen.cpus, scheduling_of_this_thread().cpus);
 }
 
@@ -114,7 +114,7 @@ TEST_F(ExecutorTest, ACpuThatTheMachineDoesNotHaveIsNoted) {
 }
 
 TEST_F(ExecutorTest, ItsPriorityIsSetOrTheNoteSaysWhyNot) {
-  const Scheduling seen = run({.name = "control", .period = {}, .priority = 7, .cpu = {}});
+  const Scheduling seen = run({.name = "control", .period = {}, .priority = 7});
   if (notes_.empty()) {
     EXPECT_EQ(seen.policy, SCHED_FIFO);
     EXPECT_EQ(seen.priority, 7);
@@ -128,7 +128,7 @@ TEST_F(ExecutorTest, ItsPriorityIsSetOrTheNoteSaysWhyNot) {
 TEST_F(ExecutorTest, APriorityThatIsRefusedIsNotedAndItRunsAllTheSame) {
   std::thread{[&] {
     give_up_priorities();
-    const Scheduling seen = run({.name = "control", .period = {}, .priority = 7, .cpu = {}});
+    const Scheduling seen = run({.name = "control", .period = {}, .priority = 7});
     EXPECT_EQ(seen.policy, SCHED_OTHER);
     EXPECT_EQ(seen.priority, 0);
   }}.join();
@@ -137,7 +137,7 @@ TEST_F(ExecutorTest, APriorityThatIsRefusedIsNotedAndItRunsAllTheSame) {
 }
 
 TEST_F(ExecutorTest, AThreadWithAPeriodWakesWithoutTheSlackOfTimers) {
-  EXPECT_EQ(run({.name = "control", .period = seconds(0.002), .cpu = {}}).timer_slack_ns, 1);
+  EXPECT_EQ(run({.name = "control", .period = seconds(0.002)}).timer_slack_ns, 1);
 }
 
 /// How much of this process's memory is locked [KiB].
@@ -154,7 +154,7 @@ long locked_kib() {
 
 TEST_F(ExecutorTest, MemoryIsLockedOrTheNoteSaysWhyNot) {
   if (kSanitized) GTEST_SKIP() << "a sanitizer's shadow memory cannot be locked";
-  run({.name = "control", .period = {}, .cpu = {}, .lock_memory = true});
+  run({.name = "control", .period = {}, .lock_memory = true});
   if (notes_.empty()) {
     EXPECT_GT(locked_kib(), 1000);
   } else {
@@ -170,7 +170,7 @@ TEST_F(ExecutorTest, ALimitUnderWhichMemoryThatIsAskedForLaterWouldBeRefusedIsNo
     ASSERT_EQ(getrlimit(RLIMIT_MEMLOCK, &limit), 0);
     limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, 64 * 1024);
     ASSERT_EQ(setrlimit(RLIMIT_MEMLOCK, &limit), 0);
-    run({.name = "control", .period = {}, .cpu = {}, .lock_memory = true});
+    run({.name = "control", .period = {}, .lock_memory = true});
   }}.join();
   EXPECT_EQ(notes_, (std::vector<std::string>{
                         "executor 'control' runs without locked memory: the limit is 64 KiB; raise "
@@ -185,7 +185,7 @@ TEST_F(ExecutorTest, KnowsOfEveryStepHowLateItBeganAndHowLongItTook) {
     ++steps;
   });
   const auto after = make_runner("after", 1, [](Time) {});
-  Executor executor{{.name = "control", .period = seconds(0.01), .cpu = {}}, clock_};
+  Executor executor{{.name = "control", .period = seconds(0.01)}, clock_};
   executor.assign(*paced);
   executor.assign(*after);
   executor.start([](const std::string&) {});
@@ -219,7 +219,7 @@ TEST_F(ExecutorTest, ATriggeredStepIsAsLateAsItsTriggerIsOld) {
   const auto waiting = make_runner("waiting", 1, [&](Time) { done = true; });
   InputPort& start = slow->inbox().add({.name = "in", .trigger = true}, type);
   InputPort& trigger = waiting->inbox().add({.name = "in", .trigger = true}, type);
-  Executor executor{{.name = "main", .period = {}, .cpu = {}}, clock_};
+  Executor executor{{.name = "main", .period = {}}, clock_};
   executor.assign(*slow);
   executor.assign(*waiting);
   executor.start([](const std::string&) {});
@@ -241,14 +241,14 @@ TEST_F(ExecutorTest, AStopReachesAUnitThatNothingActivatesAndAJoinThatIsTooLongN
     while (hangs) std::this_thread::sleep_for(std::chrono::milliseconds{1});
   });
   const auto idle = make_runner("idle", 1, [](Time) {});
-  Executor quiet{{.name = "quiet", .period = {}, .cpu = {}}, clock_};
+  Executor quiet{{.name = "quiet", .period = {}}, clock_};
   quiet.assign(*idle);
   quiet.start([](const std::string&) {});
   quiet.begin_stop();
   while (!idle->stopped()) std::this_thread::sleep_for(std::chrono::milliseconds{1});
   EXPECT_EQ(idle->activations(), 0U);
 
-  Executor executor{{.name = "control", .period = seconds(0.001), .cpu = {}}, clock_};
+  Executor executor{{.name = "control", .period = seconds(0.001)}, clock_};
   executor.assign(*hung);
   executor.start([](const std::string&) {});
   while (!entered) std::this_thread::sleep_for(std::chrono::milliseconds{1});

@@ -23,12 +23,9 @@ out:
 std::uint8_t level_of(StatusReporter::State state) {
   constexpr std::uint8_t kInfo = 20, kWarning = 30, kError = 40;
   switch (state) {
-    case StatusReporter::State::ok:
-      return kInfo;
-    case StatusReporter::State::degraded:
-      return kWarning;
-    default:
-      return kError;
+    case StatusReporter::State::ok: return kInfo;
+    case StatusReporter::State::degraded: return kWarning;
+    default: return kError;
   }
 }
 

@@ -28,8 +28,8 @@ TEST(LockstepScheduler, ActivatesInTheOrderOfTimeThenGraph) {
   };
   const auto late = make_runner("late", 1, record("late"));
   const auto early = make_runner("early", 0, record("early"));
-  scheduler.assign({.name = "a", .period = Duration{20}, .cpu = {}}, {late.get()});
-  scheduler.assign({.name = "b", .period = Duration{10}, .cpu = {}}, {early.get()});
+  scheduler.assign({.name = "a", .period = Duration{20}}, {late.get()});
+  scheduler.assign({.name = "b", .period = Duration{10}}, {early.get()});
   scheduler.run([&] { return log.size() >= 5; });
   EXPECT_EQ(log,
             (std::vector<std::string>{"early@0", "late@0", "early@10", "early@20", "late@20"}));
@@ -47,8 +47,8 @@ TEST(LockstepScheduler, DeliversAtOnceWithoutLatencyAndLaterWithOne) {
     const auto sink = make_runner("sink", 1, [&](Time now) { seen.push_back(now.ns); });
     topic.connect(sink->inbox().add({.name = "in", .trigger = true}, type));
     source->set_latency(latency);
-    scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()});
-    scheduler.assign({.name = "b", .period = {}, .cpu = {}}, {sink.get()});
+    scheduler.assign({.name = "a", .period = Duration{100}}, {source.get()});
+    scheduler.assign({.name = "b", .period = {}}, {sink.get()});
     scheduler.run([&] { return seen.size() >= 2; });
     EXPECT_EQ(seen, (std::vector<std::int64_t>{latency.count(), 100 + latency.count()}));
   }
@@ -62,7 +62,7 @@ TEST(LockstepScheduler, WhenItStopsNothingIsOnItsWayAnyMore) {
   const auto source =
       make_runner("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
   source->set_latency(Duration{7});
-  scheduler.assign({.name = "a", .period = Duration{100}, .cpu = {}}, {source.get()});
+  scheduler.assign({.name = "a", .period = Duration{100}}, {source.get()});
   scheduler.run([&] { return source->activations() == 1; });
   scheduler.stop(seconds(60));
   topic.loan();
@@ -232,8 +232,8 @@ TEST(ThreadedScheduler, ActivatesPeriodicallyAndOnTriggersAndStops) {
   });
   const auto sink = make_runner("sink", 1, [&](Time) { ++received; });
   topic.connect(sink->inbox().add({.name = "in", .queue = 32, .trigger = true}, type));
-  scheduler.assign({.name = "periodic", .period = seconds(0.001), .cpu = {}}, {source.get()});
-  scheduler.assign({.name = "triggered", .period = {}, .cpu = {}}, {sink.get()});
+  scheduler.assign({.name = "periodic", .period = seconds(0.001)}, {source.get()});
+  scheduler.assign({.name = "triggered", .period = {}}, {sink.get()});
   scheduler.run([&] { return sent >= 20 && received >= 1; });
   scheduler.stop(seconds(60));
   const int after_stop = received;
@@ -249,7 +249,7 @@ TEST(ThreadedScheduler, CountsMissedPeriodsInsteadOfCatchingUp) {
   const auto slow = make_runner("slow", 0, [&](Time) {
     if (calls++ == 0) std::this_thread::sleep_for(std::chrono::milliseconds{50});
   });
-  scheduler.assign({.name = "control", .period = seconds(0.005), .cpu = {}}, {slow.get()});
+  scheduler.assign({.name = "control", .period = seconds(0.005)}, {slow.get()});
   scheduler.run([&] { return calls >= 3; });
   scheduler.stop(seconds(60));
   EXPECT_GE(slow->overruns(), 8U);

@@ -67,7 +67,7 @@ std::string Watchdog::verdict() const {
 void Watchdog::loop() {
   using Steady = std::chrono::steady_clock;
   // What the system does not allow it does not allow the executors either, who tell it.
-  prepare_thread({.name = "watchdog", .priority = priority_, .cpu = {}, .has_period = false});
+  prepare_thread({.name = "watchdog", .priority = priority_, .has_period = false});
   auto before = Steady::now();
   while (!end_.wait_until(before + tick_)) {
     const auto now = Steady::now();

@@ -2,7 +2,6 @@
 #include "armature/runtime/hosts/line_exchange.hpp"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <utility>
 

@@ -63,7 +63,6 @@ void read_lease_time(MapReader& map, const std::vector<ParamSpec>& params, Lease
 std::optional<LeaseSpec> read_lease(const Node* node, const std::optional<Duration>& max_age,
                                     const std::vector<ParamSpec>& params, Problems& problems) {
   LeaseSpec lease{.after = max_age.value_or(Duration{0}),
-                  .param = {},
                   .then = "not shown to the component any more"};
   if (!node) return max_age ? std::optional{lease} : std::nullopt;
   MapReader map{*node, "'lease'", problems};

@@ -21,7 +21,7 @@ void run_step(const std::function<void(Time)>& step) {
   name_crashing_components();
   const SystemClock clock;
   const auto runner = make_runner("camera", 0, step);
-  Executor executor{{.name = "vision", .period = seconds(0.001), .cpu = {}}, clock};
+  Executor executor{{.name = "vision", .period = seconds(0.001)}, clock};
   executor.assign(*runner);
   executor.start([](const std::string&) {});
   std::this_thread::sleep_for(std::chrono::seconds{30});

@@ -8,7 +8,6 @@
 #include <exception>
 #include <memory>
 #include <typeinfo>
-#include <vector>
 
 #include "armature/config/problems.hpp"
 

@@ -22,14 +22,10 @@ std::string device_of(const ComponentConfig& component) {
   const auto spec = std::ranges::find(component.manifest->params, name, &ParamSpec::name);
   switch (spec->type) {
     case Type::text:
-    case Type::choice:
-      return component.params.text(name);
-    case Type::file:
-      return component.params.file(name);
-    case Type::integer:
-      return std::to_string(component.params.integer(name));
-    default:
-      return fmt::format("{}", component.params.number(name));
+    case Type::choice: return component.params.text(name);
+    case Type::file: return component.params.file(name);
+    case Type::integer: return std::to_string(component.params.integer(name));
+    default: return fmt::format("{}", component.params.number(name));
   }
 }
 

@@ -13,7 +13,6 @@
 #include <fstream>
 #include <optional>
 #include <set>
-#include <string_view>
 #include <thread>
 
 #include "armature/runtime/deployment_file/sha256.hpp"
@@ -33,7 +32,7 @@ struct Address {
   }
   const sockaddr* get() const { return reinterpret_cast<const sockaddr*>(&address); }
 
-  sockaddr_un address{.sun_family = AF_UNIX, .sun_path = {}};
+  sockaddr_un address{.sun_family = AF_UNIX};
   socklen_t size;
 };
 

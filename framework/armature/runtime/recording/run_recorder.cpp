@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <stdexcept>
 #include <utility>
 
 #include "armature/bus/topic_name.hpp"
@@ -232,9 +231,7 @@ void RunRecorder::take(Component& component, ActivationLog::Entry& entry) {
       call.written_().clear();
       call.failure_().clear();
       return;
-    case Kind::lost:
-      call.lost_before_(static_cast<std::uint64_t>(entry.number));
-      return;
+    case Kind::lost: call.lost_before_(static_cast<std::uint64_t>(entry.number)); return;
     case Kind::read: {
       const SampleInfo& info = entry.sample.info();
       const auto& input = component.inputs[static_cast<std::size_t>(entry.input)];
@@ -248,9 +245,7 @@ void RunRecorder::take(Component& component, ActivationLog::Entry& entry) {
       set_stamp(read.published_(), info.published);
       return;
     }
-    case Kind::answer:
-      call.had_subscribers_().push_back(entry.answer);
-      return;
+    case Kind::answer: call.had_subscribers_().push_back(entry.answer); return;
     case Kind::published: {
       const SampleInfo& info = entry.sample.info();
       keep(entry.sample, Time{entry.number}, channels_.at(info.writer));
@@ -259,9 +254,7 @@ void RunRecorder::take(Component& component, ActivationLog::Entry& entry) {
       written.sequence_(info.sequence);
       return;
     }
-    case Kind::failed:
-      call.failure_(component.log.failure());
-      return;
+    case Kind::failed: call.failure_(component.log.failure()); return;
     case Kind::end:
       if (!component.is_of_runtime) write(call, stamp_of(call.now_()));
   }

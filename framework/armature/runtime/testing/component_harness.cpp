@@ -40,7 +40,7 @@ void ComponentHarness::read(const PluginRegistry& plugins, const Options& option
   deployment_.name = "bench";
   deployment_.seed = 1;
   deployment_.executors.push_back(
-      {.name = std::string{kMainExecutor}, .period = {}, .priority = 0, .cpu = {}});
+      {.name = std::string{kMainExecutor}, .period = {}, .priority = 0});
   for (const auto& [section, word] : kDocumentSections) {
     auto& documents = deployment_.documents[std::string{section}];
     const auto& document = word == "robot" ? options.robot : options.rig;

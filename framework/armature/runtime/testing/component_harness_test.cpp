@@ -73,7 +73,7 @@ msg::String text(const std::string& data) {
 class ComponentBenchTest : public testing::Test {
  protected:
   PluginRegistry plugins_ = with_shout();
-  ComponentHarness bench_{plugins_, {.component = "{plugin: test/shout}", .robot = {}, .rig = {}}};
+  ComponentHarness bench_{plugins_, {.component = "{plugin: test/shout}", .robot = {}}};
 };
 
 TEST_F(ComponentBenchTest, ShowsWhatWasSentAndGivesWhatWasPublishedOnce) {
@@ -121,28 +121,24 @@ TEST_F(ComponentBenchTest, KnowsThePortsAndTheirTypes) {
 
 TEST(ComponentHarness, ChecksParametersAsADeploymentDoes) {
   PluginRegistry plugins = with_shout();
-  ComponentHarness loud{
-      plugins,
-      {.component = "{plugin: test/shout, params: {mark: '!!!'}}", .robot = {}, .rig = {}}};
+  ComponentHarness loud{plugins,
+                        {.component = "{plugin: test/shout, params: {mark: '!!!'}}", .robot = {}}};
   loud.send("heard", text("one"));
   loud.step(0);
   EXPECT_EQ(loud.take<msg::String>("said").front().data_(), "one!!!");
-  EXPECT_EQ(
-      test::refusal_of([&] {
-        ComponentHarness wrong{
-            plugins,
-            {.component = "{plugin: test/shout, params: {mrk: '!'}}", .robot = {}, .rig = {}}};
-      }),
-      "bench:1:38: unknown key 'mrk' in params of 'test/shout'; did you "
-      "mean 'mark'?");
+  EXPECT_EQ(test::refusal_of([&] {
+              ComponentHarness wrong{
+                  plugins, {.component = "{plugin: test/shout, params: {mrk: '!'}}", .robot = {}}};
+            }),
+            "bench:1:38: unknown key 'mrk' in params of 'test/shout'; did you "
+            "mean 'mark'?");
 }
 
 TEST(ComponentHarness, RefusesAClassThatForgetsAPortOfItsPluginYaml) {
   PluginRegistry plugins{std::vector<std::filesystem::path>{}};
   plugins.add<Silent>(kManifest);
-  EXPECT_THROW(
-      (ComponentHarness{plugins, {.component = "{plugin: test/shout}", .robot = {}, .rig = {}}}),
-      std::logic_error);
+  EXPECT_THROW((ComponentHarness{plugins, {.component = "{plugin: test/shout}", .robot = {}}}),
+               std::logic_error);
 }
 
 TEST(PluginRegistry, OfThisProgramRefusesAnIdThatIsThereAlreadyAndAnotherKind) {

@@ -109,7 +109,7 @@ inline msg::CameraInfo info() {
 class FacePoseHostTest : public ::testing::Test {
  protected:
   explicit FacePoseHostTest(const char* component = "{plugin: face_pose/first}")
-      : host_{plugins(), {.component = component, .robot = {}, .rig = {}}} {}
+      : host_{plugins(), {.component = component, .robot = {}}} {}
   msg::FacePose see(const msg::Image& left, const msg::Image& right,
                     const msg::FaceLandmarks& found) {
     host_.send("left_image", left);

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <random>
-#include <string>
 
 #include "face_pose_host_bench_test.hpp"
 

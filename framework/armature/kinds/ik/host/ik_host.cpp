@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
-#include <vector>
 
 #include "armature/kinds/ik/ik.hpp"
 #include "armature/kinds/joint_messages.hpp"

@@ -68,8 +68,7 @@ class IkHostTest : public RequestHostTest<msg::IkRequest, msg::IkResponse> {
       : RequestHostTest{
             plugins(),
             {.component = "{plugin: ik/echo}",
-             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
-             .rig = {}}} {
+             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml")}} {
     EchoIk::answer = {};
     EchoIk::throws = false;
   }
@@ -195,8 +194,7 @@ TEST(IkHost, DoesNotStartWithARobotThatTheSolverRefuses) {
   PluginRegistry registry{{ARMATURE_PLUGIN_BUILD_DIR}};
   registry.add<Refusing>("{armature_plugin: 1, id: ik/refusing, kind: ik}");
   try {
-    ComponentHarness host{registry,
-                          {.component = "{plugin: ik/refusing}", .robot = refused, .rig = {}}};
+    ComponentHarness host{registry, {.component = "{plugin: ik/refusing}", .robot = refused}};
     ADD_FAILURE() << "it was made";
   } catch (const SetupError& error) {
     EXPECT_STREQ(error.what(), "ik/refusing refuses: one has too few joints");

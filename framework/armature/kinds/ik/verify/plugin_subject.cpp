@@ -25,12 +25,9 @@ bool provides(const PluginManifest& plugin, std::string_view word, const Params&
   const auto param = std::ranges::find(plugin.params, promise->when, &ParamSpec::name);
   if (param == plugin.params.end()) return false;
   switch (param->type) {
-    case ParamSpec::Type::flag:
-      return params.flag(promise->when);
-    case ParamSpec::Type::integer:
-      return params.integer(promise->when) != 0;
-    default:
-      return params.number(promise->when) != 0;
+    case ParamSpec::Type::flag: return params.flag(promise->when);
+    case ParamSpec::Type::integer: return params.integer(promise->when) != 0;
+    default: return params.number(promise->when) != 0;
   }
 }
 

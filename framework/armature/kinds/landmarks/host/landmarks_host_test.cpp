@@ -77,8 +77,7 @@ class LandmarksHostTest : public ::testing::Test {
   ComponentHarness host_{plugins(),
                          {.component = "{plugin: landmarks/in_a_row, params: {stretch_below: 0}, "
                                        "detector: {plugin: detector/first_pixel}}",
-                          .robot = {},
-                          .rig = {}}};
+                          .robot = {}}};
 };
 
 TEST_F(LandmarksHostTest, TellsWhatWasFoundUnderTheHeaderOfThePictures) {

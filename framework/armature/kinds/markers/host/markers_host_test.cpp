@@ -56,8 +56,7 @@ class MarkersHostTest : public ::testing::Test {
 
   const std::filesystem::path file_ = std::filesystem::temp_directory_path() /
                                       ("armature-host-" + std::to_string(getpid()) + ".nrrd");
-  ComponentHarness host_{plugins(),
-                         {.component = "{plugin: markers/first_voxel}", .robot = {}, .rig = {}}};
+  ComponentHarness host_{plugins(), {.component = "{plugin: markers/first_voxel}", .robot = {}}};
 };
 
 TEST_F(MarkersHostTest, SearchesEveryVolumeOnceAndTellsItUnderTheVolumesStamp) {

@@ -18,7 +18,6 @@ namespace {
 Expected<PathRequest> request_of(const RobotModel& robot, const msg::PathRequest& message) {
   PathRequest request{.start = tool_pose_of(message.start_()),
                       .goal = tool_pose_of(message.goal_()),
-                      .focus = {},
                       .forbidden = zones_of(message.forbidden_())};
   if (message.has_focus_()) request.focus = to_eigen(message.focus_());
   for (const msg::ToolPose& key : message.through_()) {

@@ -64,8 +64,7 @@ class PathHostTest : public RequestHostTest<msg::PathRequest, msg::PathResponse>
       : RequestHostTest{
             plugins(),
             {.component = "{plugin: path/over_the_focus}",
-             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
-             .rig = {}}} {}
+             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml")}} {}
 };
 
 TEST_F(PathHostTest, AnswersEveryRequestOnceInOrderUnderItsHeaderAndId) {

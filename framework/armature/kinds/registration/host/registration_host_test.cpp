@@ -69,9 +69,8 @@ class RegistrationHostTest
     : public RequestHostTest<msg::RegistrationRequest, msg::RegistrationResponse> {
  protected:
   RegistrationHostTest()
-      : RequestHostTest{
-            plugins(),
-            {.component = "{plugin: registration/first_marker}", .robot = {}, .rig = {}}} {}
+      : RequestHostTest{plugins(),
+                        {.component = "{plugin: registration/first_marker}", .robot = {}}} {}
 };
 
 TEST_F(RegistrationHostTest, TellsTheMapItsMarkersAndTheTargets) {
@@ -181,8 +180,7 @@ TEST_F(RegistrationHostTest, RefusesMarkersThatDoNotTellAMirroredImageUnlessSome
   ComponentHarness vouched{
       plugins(),
       {.component = "{plugin: registration/first_marker, params: {handedness_vouched: true}}",
-       .robot = {},
-       .rig = {}}};
+       .robot = {}}};
   vouched.send("request", mirrored_triangle());
   vouched.step(0.1);
   EXPECT_TRUE(vouched.take<msg::RegistrationResponse>("response").at(0).valid_());

@@ -78,8 +78,7 @@ class SelectHostTest : public RequestHostTest<msg::SelectRequest, msg::SelectRes
       : RequestHostTest{
             plugins(),
             {.component = "{plugin: select/last}",
-             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
-             .rig = {}}} {}
+             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml")}} {}
 };
 
 TEST_F(SelectHostTest, AnswersEveryRequestOnceInOrderUnderItsHeaderAndId) {

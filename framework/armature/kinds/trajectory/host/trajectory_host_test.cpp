@@ -79,8 +79,7 @@ class TrajectoryHostTest : public RequestHostTest<msg::TrajectoryRequest, msg::T
       : RequestHostTest{
             plugins(),
             {.component = "{plugin: trajectory/two_seconds}",
-             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml"),
-             .rig = {}}} {}
+             .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml")}} {}
 };
 
 TEST_F(TrajectoryHostTest, AnswersEveryRequestOnceInOrderUnderItsHeaderAndId) {
@@ -230,8 +229,7 @@ class LiftedTrajectoryHostTest
                  "  - {name: turn, limits_deg: [-90, 90], velocity_rad_s: 2, "
                  "acceleration_rad_s2: 8}\n"
                  "frames: {tool: {parent: turn}}\nhome: [0.1, 0]\n",
-                 "lifted.yaml"),
-             .rig = {}}} {}
+                 "lifted.yaml")}} {}
 };
 
 TEST_F(LiftedTrajectoryHostTest, LimitsOfAJointThatIsLockedBindNothing) {

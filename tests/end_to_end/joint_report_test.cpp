@@ -8,13 +8,13 @@
 #include <csignal>
 #include <filesystem>
 #include <map>
-#include <sstream>
 #include <thread>
 
 #include "armature/values/angles.hpp"
 #include "armature/values/file_content.hpp"
 #include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
+#include "joint_table.hpp"
 
 namespace armature::test {
 namespace {
@@ -34,45 +34,7 @@ struct System {
 
 std::ostream& operator<<(std::ostream& out, const System& system) { return out << system.name; }
 
-/// Empty fields are NaN.
-struct Table {
-  std::vector<std::string> names;
-  std::vector<std::vector<double>> rows;
-
-  std::size_t column(const std::string& name) const {
-    const auto found = std::ranges::find(names, name);
-    EXPECT_NE(found, names.end()) << name;
-    return static_cast<std::size_t>(found - names.begin()) % names.size();
-  }
-};
-
-std::vector<std::string> fields_of(const std::string& line) {
-  std::vector<std::string> fields;
-  std::istringstream text{line + ','};
-  for (std::string field; std::getline(text, field, ',');) fields.push_back(field);
-  return fields;
-}
-
-Table read_table(const std::string& text) {
-  Table table;
-  EXPECT_TRUE(text.ends_with("\r\n"));
-  std::istringstream lines{text};
-  for (std::string line; std::getline(lines, line);) {
-    EXPECT_TRUE(line.ends_with('\r')) << line;
-    line.pop_back();
-    const auto fields = fields_of(line);
-    if (table.names.empty()) {
-      table.names = fields;
-      continue;
-    }
-    EXPECT_EQ(fields.size(), table.names.size()) << line;
-    auto& row = table.rows.emplace_back();
-    for (const std::string& field : fields) row.push_back(field.empty() ? NAN : std::stod(field));
-  }
-  return table;
-}
-
-void expect_even_times(const Table& table) {
+void expect_even_times(const JointTable& table) {
   const std::size_t time = table.column("time_s");
   for (std::size_t i = 0; i < table.rows.size(); ++i) {
     ASSERT_NEAR(table.rows[i][time], 0.01 * static_cast<double>(i), 1e-9);
@@ -80,7 +42,7 @@ void expect_even_times(const Table& table) {
 }
 
 /// Every error is measured minus reference, to the nine digits that are told.
-void expect_errors_that_add_up(const Table& table) {
+void expect_errors_that_add_up(const JointTable& table) {
   for (std::size_t e = 0; e < table.names.size(); ++e) {
     const std::size_t at = table.names[e].find("_error_");
     if (at == std::string::npos || table.names[e].starts_with("goal_")) continue;
@@ -95,7 +57,7 @@ void expect_errors_that_add_up(const Table& table) {
 }
 
 /// At the end the arm stands, and every joint is where it shall be.
-void expect_rest(const Table& table, double tolerance) {
+void expect_rest(const JointTable& table, double tolerance) {
   const auto& last = table.rows.back();
   for (std::size_t i = 0; i < table.names.size(); ++i) {
     const std::string& name = table.names[i];
@@ -109,7 +71,7 @@ void expect_rest(const Table& table, double tolerance) {
   }
 }
 
-void expect_goal_met(const Table& table, const Tolerance& tolerance) {
+void expect_goal_met(const JointTable& table, const Tolerance& tolerance) {
   const std::size_t position = table.column("goal_position_error_m");
   const std::size_t orientation = table.column("goal_orientation_error_rad");
   const auto has_goal = [&](const auto& row) { return !std::isnan(row[position]); };
@@ -144,7 +106,7 @@ TEST_P(JointReport, TellsEveryArmTheSameInEveryRunAndChangesNothing) {
     const std::string text = content_of(folder_ / "first" / csv);
     EXPECT_TRUE(text == content_of(folder_ / "second" / csv)) << "byte for byte";
     EXPECT_TRUE(content_of(folder_ / "first" / svg) == content_of(folder_ / "second" / svg));
-    const Table table = read_table(text);
+    const JointTable table = read_joint_table(text);
     ASSERT_GT(table.rows.size(), 100u);
     expect_even_times(table);
     expect_errors_that_add_up(table);
@@ -183,7 +145,7 @@ TEST_P(KilledRun, LeavesWholeLinesOfAnArmInAnotherProcess) {
     run.signal(SIGKILL);
     run.finish(std::chrono::seconds{10});
   }
-  const Table table = read_table(content_of(csv));
+  const JointTable table = read_joint_table(content_of(csv));
   ASSERT_GT(table.rows.size(), 50u);
   const std::size_t time = table.column("time_s"), error = table.column("j1_error_rad");
   for (std::size_t i = 1; i < table.rows.size(); ++i) {

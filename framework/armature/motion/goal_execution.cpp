@@ -16,6 +16,10 @@ constexpr Duration kPausePatience = seconds(0.1);  // behind the start that its 
 // Within this a drive that is on has gone where the reference came.
 constexpr Duration kAnswer = seconds(1);
 
+constexpr std::string_view kFollows =
+    "the arm says that it follows, so the reference stays: look at its encoders, its load, and "
+    "what "
+    "holds it";
 constexpr std::string_view kBesideItself =
     "the arm goes along when the reference comes to it, so the reference stays: look at the arm's "
     "encoders and load";
@@ -134,7 +138,7 @@ bool GoalExecution::goes_along(const JointVector& q, Time now) const {
 }
 
 void GoalExecution::come_to(const JointVector& q, Time now) {
-  if (!rest_.rests() || beside_itself_ || now < reference_.end()) return;
+  if (follows_ == true || !rest_.rests() || beside_itself_ || now < reference_.end()) return;
   if (goes_along(q, now)) {
     beside_itself_ = true;
     return;
@@ -163,7 +167,10 @@ void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
   }
   if (halted() || beside_itself_) return;
   come_to(measured.q, now);
-  if (beside_itself_) trouble_ = ReasonText::format("{}; {}", stray.view(), kBesideItself);
+  const bool stays = follows_ == true && rest_.rests() && now >= reference_.end();
+  if (stays || beside_itself_) {
+    trouble_ = ReasonText::format("{}; {}", stray.view(), stays ? kFollows : kBesideItself);
+  }
 }
 
 bool GoalExecution::guided(Time now) const {
@@ -205,7 +212,7 @@ void GoalExecution::stay_with(const MeasuredJoints& measured, Time now) {
   const auto is_within = [&](const JointBound& bound) {
     return is_near(model_, measured.q, stands, bound);
   };
-  if (!follows_) {
+  if (follows_ == false) {
     if (rest_.rests() || !is_within(options_.max_deviation)) reference_.start(measured.q, now);
     return;
   }
@@ -420,7 +427,8 @@ bool GoalExecution::rearm(Time now) {
   trouble_.clear();
   astray_ = false;
   came_.reset();
-  if (!std::exchange(beside_itself_, false)) reference_.start(measured_->q, now);
+  const bool stays = std::exchange(beside_itself_, false) || follows_ == true;
+  if (!stays) reference_.start(measured_->q, now);
   return true;
 }
 

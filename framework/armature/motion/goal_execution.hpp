@@ -67,8 +67,8 @@ class GoalExecution {
   /// done, stops within limits when the arm does not follow or falls silent, comes back within
   /// limits to an arm that has not followed when it rests, and follows the arm that is guided. Of
   /// an arm that is halted nothing is wanted: where it rests elsewhere, or was pushed to, is where
-  /// the reference comes. An arm that goes along when the reference comes to it is held where that
-  /// is, and said to.
+  /// the reference comes. An arm that says that it follows, or goes along when the reference comes
+  /// to it, is held where that is, and said to.
   void update(Time now, const std::optional<MeasuredJoints>& measured);
 
   /// `wrong`: what is wrong with the goal, or empty; the statuses say what came of it. Key poses
@@ -91,9 +91,11 @@ class GoalExecution {
   /// stopped by that: goals are refused in stage `accept`, and may be given again.
   void halt_before_operator(const ReasonText& why, Time now);
   bool halted() const { return !halted_.empty(); }
-  /// Whether the arm follows at all, by its own word; true until told otherwise. To an arm that is
-  /// halted and does not the reference comes however near it is.
-  void set_follows(bool follows) { follows_ = follows; }
+  /// Whether the arm follows, by its own word; nothing: it does not say. To an arm that is halted
+  /// and does not follow the reference comes however near it is. To one that follows the reference
+  /// never comes: it goes where it is told to, so that what it measures elsewhere is its encoders'
+  /// word, or a push that ends.
+  void set_follows(std::optional<bool> follows) { follows_ = follows; }
   /// Begins again from where the arm measures itself, once arm and reference rest; false before.
   bool rearm(Time now);
   /// Whether the reference stands, and the arm by its own samples as well. An arm that is silent
@@ -158,9 +160,10 @@ class GoalExecution {
   /// After a standstill of this unit or of the whole machine the reference must not be where it
   /// would have come to meanwhile: the arm has not gone there.
   void forget_if_late(Time now);
-  /// From rest to rest, within limits: to an arm that rests at `q`. Not to one whose drive is on,
-  /// and which measures itself beside where it is told to be (an encoder that slipped, a load that
-  /// a weak drive does not hold): the reference would come to it for ever, and take it along.
+  /// From rest to rest, within limits: to an arm that rests at `q`, and does not say that it
+  /// follows. Only once to one whose drive is on all the same, and which measures itself beside
+  /// where it is told to be (an encoder that slipped, a load that a weak drive does not hold): the
+  /// reference would come to it for ever, and take it along.
   void come_to(const JointVector& q, Time now);
   /// Whether an arm that rests at `q` has gone on by what the reference came to it, by half at
   /// least.
@@ -196,7 +199,7 @@ class GoalExecution {
   ReasonText behind_;     // why the tool is not on it
   bool spliced_ = false;  // since the last update
   bool astray_ = false;   // the arm is not where the reference is
-  bool follows_ = true;
+  std::optional<bool> follows_;
   struct Coming {
     JointVector from, to;
     Time end;

@@ -223,6 +223,21 @@ TEST_F(GoalExecutionTest, IsNotLedAwayByAnArmThatGoesAlongWhenTheReferenceComesT
   }
 }
 
+TEST_F(GoalExecutionTest, IsNotMovedByWhatAnArmMeasuresThatSaysThatItFollows) {
+  execution_.set_follows(true);
+  step_to(0.2);
+  const JointVector rested = before_.q, slipped = rested + JointVector::Constant(3, 0.08);
+  for (int k = 0; k < 5000; ++k) step_with(slipped);
+  EXPECT_EQ(before_.q, rested);
+  EXPECT_THAT(std::string{execution_.trouble().view()},
+              testing::AllOf(testing::StartsWith("joint z of the arm is "),
+                             testing::HasSubstr("says that it follows, so the reference stays")));
+  give(goal_at(1, 1, 1, 1));
+  EXPECT_EQ(statuses_.back().stage.view(), "accept") << "refused";
+  step_to(to_seconds(now_ - Time{}) + 0.2);
+  EXPECT_TRUE(execution_.trouble().empty()) << "it measures itself rightly again";
+}
+
 TEST_F(GoalExecutionTest, WaitsWhereItHasStoppedForAnArmThatComesLate) {
   step_to(0.1);
   give(goal_at(1, 1, 1, 1));

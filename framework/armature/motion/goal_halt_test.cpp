@@ -97,6 +97,23 @@ TEST_F(GoalExecutionTest, AHaltedArmThatGoesAlongWhenTheReferenceComesToItIsHeld
   }
 }
 
+/// Its encoders slip, or drift: whatever they say, a stopped arm is not moved.
+TEST_F(GoalExecutionTest, AHaltedArmThatSaysThatItFollowsIsNotMovedByWhatItMeasures) {
+  for (const double beside : {0.001, -0.002, 0.04, 0.2}) {
+    SCOPED_TRACE(beside);
+    execution_.set_follows(true);
+    step_to(to_seconds(now_ - Time{}) + 0.2);
+    execution_.halt("the button", now_);
+    const JointVector rested = before_.q;
+    for (int k = 0; k < 5000; ++k) put(rested + JointVector::Constant(3, beside));
+    for (int k = 0; k < 5000; ++k) put(rested + JointVector::Constant(3, beside * (1 + 1e-4 * k)));
+    EXPECT_EQ(before_.q, rested);
+    ASSERT_TRUE(execution_.rearm(now_));
+    step_with(rested + JointVector::Constant(3, beside));
+    EXPECT_EQ(before_.q, rested) << "the rearm moves nothing";
+  }
+}
+
 TEST_F(GoalExecutionTest, AHaltedArmThatLagsComesToWhereItWasToStop) {
   step_to(0.1);
   give(goal_at(1, 2, -2, 2));

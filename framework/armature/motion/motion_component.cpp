@@ -126,7 +126,7 @@ void Motion::begin_stop(Time now) {
 
 bool Motion::heed_stops(Time now) {
   const StopCause cause = stops_.cause(now);
-  execution_.set_follows(!cause.by_arm);
+  execution_.set_follows(cause.follows);
   if (cause.why.empty()) return true;
   const auto why = ReasonText::format("stopped until it is rearmed: {}", cause.why.view());
   if (cause.wants_operator) {

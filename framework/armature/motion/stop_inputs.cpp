@@ -76,9 +76,9 @@ ReasonText StopInputs::missing(const Enable& enable, Time now) const {
 
 ReasonText StopInputs::stop_of(std::string_view state) {
   unknown_word_.clear();
-  const bool is_enabled = is_same_word(kEnabled, state);
-  was_enabled_ = was_enabled_ || is_enabled;
-  if (is_enabled || is_same_word(kHolding, state)) return {};
+  enabled_ = is_same_word(kEnabled, state);
+  was_enabled_ = was_enabled_ || enabled_;
+  if (enabled_ || is_same_word(kHolding, state)) return {};
   const std::string_view stop = find_word(kStops, state), lost = find_word(kNotEnabled, state);
   if (!stop.empty()) return ReasonText::format("the arm says {}", stop);
   if (lost.empty()) {
@@ -104,12 +104,22 @@ StopCause StopInputs::cause(Time now) {
   hear(hold_to_run_);
   hear(operator_present_);
   const ReasonText arm = hear_arm();
-  const bool by_arm = !arm.empty();
-  if (stop_.size() > 0) return {.why = "a stop was asked for on the topic /stop", .by_arm = by_arm};
-  if (by_arm) return {.why = arm, .by_arm = true};
-  ReasonText why = missing(hold_to_run_, now);
-  if (why.empty()) why = missing(operator_present_, now);
-  return {.why = why, .wants_operator = !why.empty()};
+  StopCause cause;
+  if (!arm.empty()) {
+    cause.follows = false;
+  } else if (enabled_) {
+    cause.follows = true;
+  }
+  if (stop_.size() > 0) {
+    cause.why = "a stop was asked for on the topic /stop";
+  } else if (!arm.empty()) {
+    cause.why = arm;
+  } else {
+    cause.why = missing(hold_to_run_, now);
+    if (cause.why.empty()) cause.why = missing(operator_present_, now);
+    cause.wants_operator = !cause.why.empty();
+  }
+  return cause;
 }
 
 bool StopInputs::rearmed() const { return rearm_.size() > 0; }

@@ -13,8 +13,8 @@ namespace armature {
 /// Why an arm must stand; empty: it need not.
 struct StopCause {
   ReasonText why;
-  bool wants_operator = false;  // nobody stopped it, and nobody has enabled it
-  bool by_arm = false;          // which says that it does not follow
+  bool wants_operator = false;       // nobody stopped it, and nobody has enabled it
+  std::optional<bool> follows = {};  // the arm, by its own word; nothing: it does not say
 };
 
 /// Who may stop an arm beside its own motion component, and who may let it go again. A stop stays:
@@ -51,6 +51,7 @@ class StopInputs {
   Enable hold_to_run_, operator_present_;
   Input<msg::String> operating_state_;
   ReasonText stop_of_arm_;    // what the arm said last, if it was a stop
+  bool enabled_ = false;      // that is what the arm said last
   ReasonText unknown_word_;   // the same, if it was none of the words
   bool was_enabled_ = false;  // the arm, at some time
   Duration timeout_;

@@ -59,7 +59,7 @@ void SimulatedArm::step(Time now, const std::optional<ServoCommand>& command) {
 void SimulatedArm::guide(Time now, const JointVector& q) {
   const double dt = elapsed(now);
   if (dt == 0) return;
-  following_ = true;
+  following_ = false;
   last_command_.reset();
   for (int i = 0; i < model_.dof(); ++i) {
     const Step wanted{.q = q[i], .v = 0, .dt = dt, .in_step = true};

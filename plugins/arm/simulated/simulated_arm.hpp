@@ -42,7 +42,7 @@ class SimulatedArm {
   const JointVector& setpoint_velocity() const { return v_; }
   const JointVector& measured() const { return measured_; }
   const JointVector& measured_velocity() const { return measured_v_; }
-  /// False while there is no command.
+  /// False while there is no command, and while a hand has it.
   bool following() const { return following_; }
   /// The worst that the last step had to hold back.
   const std::optional<LimitExcess>& excess() const { return excess_; }

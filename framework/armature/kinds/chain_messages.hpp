@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "armature/kinds/pose_messages.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/tf2_msgs.hpp"
@@ -42,17 +43,22 @@ inline void write_chain(const GuidedChain& chain, Time stamp, msg::TFMessage& me
            Eigen::Quaterniond{chain.patient_T_image.rotation()});
 }
 
-/// The chain of such a message, with that tool, or which link it lacks.
+/// The chain of such a message, with that tool, or which link it lacks or is no pose.
 inline Expected<GuidedChain> chain_of(const msg::TFMessage& message,
                                       std::string_view tool = "tool") {
-  std::string missing;
+  std::string wrong;
   const auto link = [&](std::string_view parent, std::string_view child) {
+    const std::string name =
+        "transform from '" + std::string{parent} + "' to '" + std::string{child} + "'";
     for (const auto& transform : message.transforms_()) {
       if (transform.header_().frame_id_() == parent && transform.child_frame_id_() == child) {
-        return to_eigen(transform.transform_());
+        const auto pose = pose_of(transform.transform_(), "the " + name + ": its");
+        if (pose) return *pose;
+        wrong = pose.error().text;
+        return Eigen::Isometry3d::Identity();
       }
     }
-    missing = "no transform from '" + std::string{parent} + "' to '" + std::string{child} + "'";
+    wrong = "no " + name;
     return Eigen::Isometry3d::Identity();
   };
   GuidedChain chain;
@@ -63,7 +69,7 @@ inline Expected<GuidedChain> chain_of(const msg::TFMessage& message,
   chain.flange_R_tool = chain.flange_T_body.linear() * body_T_tool.linear();
   chain.tracker_T_patient = link("tracker", "patient");
   chain.patient_T_image = link("patient", "image");
-  if (!missing.empty()) return refuse(missing);
+  if (!wrong.empty()) return refuse(wrong);
   return chain;
 }
 

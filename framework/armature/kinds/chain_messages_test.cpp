@@ -46,6 +46,16 @@ TEST(ChainMessages, AMissingLinkIsNamed) {
   EXPECT_EQ(read.error().text, "no transform from 'tracker' to 'patient'");
 }
 
+TEST(ChainMessages, ALinkThatIsNoPoseIsNamed) {
+  msg::TFMessage message;
+  write_chain(chain(), Time{}, message);
+  message.transforms_()[3].transform_().rotation_() = {};
+  const auto read = chain_of(message);
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().text,
+            "the transform from 'tracker' to 'patient': its quaternion has length 0, not 1");
+}
+
 TEST(ChainMessages, NothingIsLeftOfTheChainBefore) {
   msg::TFMessage message;
   write_chain(chain(), Time{}, message);

@@ -5,9 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "armature/messages/geometry.hpp"
+#include "armature/kinds/pose_messages.hpp"
 #include "armature/messages/header.hpp"
-#include "armature/robot/geometry/pose_goal.hpp"
 #include "armature/values/expected.hpp"
 
 namespace armature ARMATURE_EXPORT {
@@ -16,27 +15,16 @@ namespace armature ARMATURE_EXPORT {
 // 'camera', not in 'base'", "the leader's quaternion has length 0, not 1". Real-time safe but for
 // the reason.
 
-inline Expected<Eigen::Isometry3d> pose_in_base(const msg::Header& header,
-                                                const Eigen::Vector3d& position,
-                                                const Eigen::Quaterniond& rotation,
-                                                std::string_view what) {
-  if (auto wrong = not_in_base(header, what)) return refuse(*wrong);
-  const auto pose = checked(ToolPose{position, rotation}, std::string{what} + "'s");
-  if (!pose) return tl::unexpected{pose.error()};
-  return Eigen::Isometry3d{Eigen::Translation3d{pose->position} *
-                           std::get<Eigen::Quaterniond>(pose->orientation)};
-}
-
 inline Expected<Eigen::Isometry3d> pose_in_base(const msg::PoseStamped& message,
                                                 std::string_view what) {
-  return pose_in_base(message.header_(), to_eigen(message.pose_().position_()),
-                      to_eigen(message.pose_().orientation_()), what);
+  if (auto wrong = not_in_base(message.header_(), what)) return refuse(*wrong);
+  return pose_of(message.pose_(), std::string{what} + "'s");
 }
 
 inline Expected<Eigen::Isometry3d> pose_in_base(const msg::TransformStamped& message,
                                                 std::string_view what) {
-  return pose_in_base(message.header_(), to_eigen(message.transform_().translation_()),
-                      to_eigen(message.transform_().rotation_()), what);
+  if (auto wrong = not_in_base(message.header_(), what)) return refuse(*wrong);
+  return pose_of(message.transform_(), std::string{what} + "'s");
 }
 
 /// Empty, or why a point that shall be in the base frame is not. Real-time safe.

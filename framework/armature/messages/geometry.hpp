@@ -19,6 +19,8 @@ inline Eigen::Quaterniond to_eigen(const msg::Quaternion& q) {
   return {q.w_(), q.x_(), q.y_(), q.z_()};
 }
 
+// As they stand in the message: kinds/pose_messages.hpp checks them. A quaternion of zeros is read
+// as no rotation.
 Eigen::Isometry3d to_eigen(const msg::Pose& pose);
 Eigen::Isometry3d to_eigen(const msg::Transform& transform);
 

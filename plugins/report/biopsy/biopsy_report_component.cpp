@@ -8,6 +8,7 @@
 #include <string>
 
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/pose_messages.hpp"
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
@@ -100,8 +101,9 @@ class BiopsyReport final : public Component {
   /// None until the task said that the needle is there.
   std::optional<double> target_error_m() const {
     if (!tip_at_target_ || !ports_.plan.latest() || !ports_.truth.latest()) return {};
-    const Eigen::Isometry3d robot_T_image = to_eigen(ports_.truth.latest()->transform_());
-    return (*tip_at_target_ - robot_T_image * to_eigen(ports_.plan.latest()->target_())).norm();
+    const auto robot_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
+    if (!robot_T_image) return {};
+    return (*tip_at_target_ - *robot_T_image * to_eigen(ports_.plan.latest()->target_())).norm();
   }
 
   /// Rms distance of the touched places to the true markers that they are nearest to; none when
@@ -109,12 +111,13 @@ class BiopsyReport final : public Component {
   std::optional<double> touch_error_m() const {
     if (!ports_.touched.latest() || ports_.touched.latest()->points_().empty()) return {};
     if (!ports_.plan.latest() || !ports_.truth.latest()) return {};
-    const Eigen::Isometry3d robot_T_image = to_eigen(ports_.truth.latest()->transform_());
+    const auto robot_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
+    if (!robot_T_image) return {};
     double squares = 0;
     for (const msg::Point& place : ports_.touched.latest()->points_()) {
       double nearest = std::numeric_limits<double>::infinity();
       for (const msg::Point& marker : ports_.plan.latest()->markers_()) {
-        const Eigen::Vector3d off = to_eigen(place) - robot_T_image * to_eigen(marker);
+        const Eigen::Vector3d off = to_eigen(place) - *robot_T_image * to_eigen(marker);
         nearest = std::min(nearest, off.squaredNorm());
       }
       squares += nearest;

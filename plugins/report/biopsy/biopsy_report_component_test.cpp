@@ -117,7 +117,9 @@ TEST_F(BiopsyReportTest, TellsHowFarOffTheMarkersTouchesWere) {
     assign(plan.markers_().emplace_back(), Eigen::Vector3d{x, 0, 0});
   }
   report_.send("plan", plan);
-  report_.send("truth", msg::TransformStamped{});
+  msg::TransformStamped truth;
+  assign(truth.transform_(), Eigen::Isometry3d::Identity());
+  report_.send("truth", truth);
   report_.step(1);
   EXPECT_EQ(report_.figures().metrics.count("touch_error_mm"), 0u);
   msg::MeasuredMarkers touched;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/pose_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
@@ -73,10 +74,11 @@ class LeadingHandComponent final : public Component {
     if (!ports_.plan.latest() || !ports_.truth.latest() || !ports_.measured_js.latest()) return;
     const auto q = joints_of(robot_, *ports_.measured_js.latest());
     if (!q) return degraded("measured_js: " + q.error().text);
-    const Eigen::Isometry3d base_T_image = to_eigen(ports_.truth.latest()->transform_());
+    const auto base_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
+    if (!base_T_image) return degraded(base_T_image.error().text);
     std::vector<Eigen::Vector3d> markers;
     for (const auto& marker : ports_.plan.latest()->markers_()) {
-      markers.push_back(base_T_image * to_eigen(marker));
+      markers.push_back(*base_T_image * to_eigen(marker));
     }
     if (markers.empty()) return degraded("the plan has no markers");
     for (const double number : parameters_.order) {

@@ -8,9 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "armature/calibration/usable_pose.hpp"
+#include "armature/kinds/pose_messages.hpp"
 #include "armature/messages/armature_msgs.hpp"
-#include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/ports.hpp"
@@ -19,8 +18,8 @@
 namespace armature::task::implant {
 
 /// The topic of one body. A body without a name is taken for it; another one is not, nor is one in
-/// another frame than the tracker's, in which all bodies are stated, or one whose spheres do not
-/// fit.
+/// another frame than the tracker's, in which all bodies are stated, one whose spheres do not fit,
+/// or one whose quaternion is no unit.
 class BodyInput {
  public:
   BodyInput(Input<msg::TrackedBody> bodies, std::string body, double max_fit_error_m)
@@ -41,13 +40,12 @@ class BodyInput {
       sighting.reason = body.reason_();
       return sighting;
     }
-    const Eigen::Isometry3d pose = to_eigen(body.pose_());
     if (const auto off = defect(body)) {
       sighting.reason = *off;
-    } else if (const auto wrong = wrong_with(pose)) {
-      sighting.reason = "its pose " + *wrong;
+    } else if (const auto pose = pose_of(body.pose_(), "its")) {
+      sighting.tracker_T_body = *pose;
     } else {
-      sighting.tracker_T_body = pose;
+      sighting.reason = pose.error().text;
     }
     return sighting;
   }

@@ -214,8 +214,25 @@ TEST_F(ImplantComponentTest, ATrackerThatTellsNoPoseIsAsGoodAsBlind) {
   task_.send("pivot", wrong);
   task_.step(now_s_ += 0.6);
   EXPECT_EQ(task_.take<msg::TaskState>("state").back().detail_(),
-            "pivot: the tracker has not seen the drill in the hand for 0.60 s: its pose is not "
-            "finite");
+            "pivot: the tracker has not seen the drill in the hand for 0.60 s: its position is "
+            "not finite");
+}
+
+TEST_F(ImplantComponentTest, APoseWhoseQuaternionIsNoUnitDoesNotCountAsSeen) {
+  const auto reason = [&](double w) {
+    ComponentHarness task{built_plugins(), this->task("med7.yaml")};
+    task.step(now_s_);
+    msg::TrackedBody told = body(Isometry3d::Identity());
+    told.pose_().orientation_().w_(w);
+    task.send("pivot", told);
+    task.step(now_s_ + 0.6);
+    return task.take<msg::TaskState>("state").back().detail_();
+  };
+  const std::string unseen = "pivot: the tracker has not seen the drill in the hand for 0.60 s: ";
+  EXPECT_EQ(reason(0), unseen + "its quaternion has length 0, not 1") << "of positions only";
+  EXPECT_EQ(reason(2), unseen + "its quaternion has length 2, not 1");
+  EXPECT_EQ(reason(NAN), unseen + "its quaternion has length nan, not 1");
+  EXPECT_EQ(reason(0.995).find("quaternion"), std::string::npos) << "rounded";
 }
 
 TEST_F(ImplantComponentTest, AnotherBodyOnATopicDoesNotCountAsSeen) {

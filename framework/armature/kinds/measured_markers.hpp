@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/header.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
@@ -16,10 +17,7 @@ namespace armature ARMATURE_EXPORT {
 /// "the markers are stated in frame 'camera', not in 'base'".
 inline std::optional<std::string> wrong_with(const msg::MeasuredMarkers& markers,
                                              std::string_view frame) {
-  const std::string& stated_in = markers.header_().frame_id_();
-  if (stated_in != frame) {
-    return fmt::format("the markers are stated in frame '{}', not in '{}'", stated_in, frame);
-  }
+  if (auto wrong = not_in_frame(markers.header_(), frame, "the markers are")) return wrong;
   if (const double error_m = markers.error_(); !(error_m >= 0)) {
     return fmt::format(
         "the error of the markers is stated as {:g} mm; state how far each is expected to be off, "

@@ -4,13 +4,11 @@
 #include <string>
 
 #include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/header.hpp"
 #include "armature/values/expected.hpp"
 #include "armature/volume/volume.hpp"
 
 namespace armature ARMATURE_EXPORT {
-
-/// The frame in which a volume's points are told.
-inline constexpr std::string_view kImageFrame = "image";
 
 /// SHA-256 of how the voxels lie (size, spacing, direction and origin to the nanometre) and of
 /// their values: 64 hexadecimal digits. The same whatever the format that the volume was read from.

@@ -18,8 +18,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr const char* kImageFrame = "image";
-
 std::vector<ForbiddenZone> vessels_of(const std::vector<double>& values, const Params& params) {
   if (values.size() % 7 != 0) {
     params.refuse({"vessels_mm"},
@@ -81,7 +79,7 @@ class MarkedHeadComponent final : public Component {
     ports_.markers.publish(markers);
     msg::TransformStamped truth;
     write_header(truth.header_(), now, kBaseFrame);
-    truth.child_frame_id_(kImageFrame);
+    truth.child_frame_id_() = kImageFrame;
     assign(truth.transform_(), head_.robot_T_image);
     ports_.truth.publish(truth);
   }

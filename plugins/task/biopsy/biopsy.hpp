@@ -49,6 +49,7 @@ class Biopsy {
 
   /// The plan on the image and where points were found before the robot are there.
   void see_head(const NeedleLine& plan, const std::vector<Eigen::Vector3d>& markers, Time now);
+  void see_refused_plan(const std::string& reason) { refuse(reason); }
   /// Where the tip is [m], in the base frame: only where the markers are touched.
   void see_tip(const Eigen::Vector3d& tip, Time stamp) { touching_.see_tip(tip, stamp); }
   void see_registration(const RegisteredHead& head, Time now);

@@ -39,10 +39,12 @@ std::vector<Eigen::Vector3d> points_of(const std::vector<msg::Point>& messages) 
   return points;
 }
 
+/// Whatever their stamps.
 bool is_other(const msg::NeedlePlan& plan, const msg::NeedlePlan& than) {
-  return to_eigen(plan.entry_()) != to_eigen(than.entry_()) ||
-         to_eigen(plan.target_()) != to_eigen(than.target_()) ||
-         points_of(plan.markers_()) != points_of(than.markers_());
+  return plan.header_().frame_id_() != than.header_().frame_id_() ||
+         plan.markers_() != than.markers_() || plan.entry_() != than.entry_() ||
+         plan.target_() != than.target_() || plan.forbidden_() != than.forbidden_() ||
+         plan.head_() != than.head_();
 }
 
 RegisteredHead head_of(const msg::RegistrationResponse& response) {
@@ -105,7 +107,11 @@ class BiopsyComponent final : public Component {
         parameters_.touch_markers ? sees_tip_ : ports_.markers.latest() != nullptr;
     if (!begun_with_ && ports_.plan.latest() && is_ready) {
       begun_with_ = *ports_.plan.latest();
-      task_.see_head(line_of(*begun_with_), points_of(begun_with_->markers_()), now);
+      if (const auto wrong = not_in_frame(begun_with_->header_(), kImageFrame, "the plan is")) {
+        task_.see_refused_plan(*wrong);
+      } else {
+        task_.see_head(line_of(*begun_with_), points_of(begun_with_->markers_()), now);
+      }
     }
     if (begun_with_ && !told_other_plan_ && is_other(*ports_.plan.latest(), *begun_with_)) {
       told_other_plan_ = true;

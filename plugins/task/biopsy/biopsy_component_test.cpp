@@ -3,6 +3,7 @@
 // questions are none, 4. what it says, 5. what it is told.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,9 @@ namespace {
 
 class BiopsyComponentTest : public testing::Test {
  protected:
-  void show_head() {
+  static msg::NeedlePlan sound_plan() {
     msg::NeedlePlan plan;
+    write_header(plan.header_(), Time{}, kImageFrame);
     for (const double x : {0.0, 0.1, 0.2}) {
       assign(plan.markers_().emplace_back(), Eigen::Vector3d{x, x * x, 0});
     }
@@ -26,7 +28,10 @@ class BiopsyComponentTest : public testing::Test {
     assign(plan.target_(), Eigen::Vector3d{0, 0, -0.03});
     write_zones({{"artery", {0.1, 0, 0}, {0.1, 0.1, 0}, 0.002}}, plan.forbidden_());
     write_zones({{"head", {0, 0, 0}, {0, 0, 0}, 0.045}}, plan.head_());
-    task_.send("plan", plan);
+    return plan;
+  }
+  void show_head() {
+    task_.send("plan", sound_plan());
     msg::MeasuredMarkers markers;
     write_header(markers.header_(), Time{}, kBaseFrame);
     assign(markers.points_().emplace_back(), Eigen::Vector3d{7, 8, 9});
@@ -62,11 +67,14 @@ class BiopsyComponentTest : public testing::Test {
     return response;
   }
 
-  ComponentHarness task_{
-      built_plugins(),
-      {.component = "{plugin: task/biopsy, params: {auto_confirm: true}}",
-       .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
-       .written = {"markers"}}};
+  static ComponentHarness::Options options() {
+    return {.component = "{plugin: task/biopsy, params: {auto_confirm: true}}",
+            .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml"),
+            .rig = {},
+            .written = {"markers"}};
+  }
+
+  ComponentHarness task_{built_plugins(), options()};
   double now_s_ = 100;
 };
 
@@ -108,6 +116,47 @@ TEST_F(BiopsyComponentTest, MarkersWithAnErrorThatIsNoneAreRefused) {
   EXPECT_EQ(refusal_of_markers(kBaseFrame, -0.001),
             "the error of the markers is stated as -1 mm; state how far each is expected to be "
             "off, or 0 when that is not known");
+}
+
+TEST_F(BiopsyComponentTest, APlanInAnotherFrameOrInNoneIsRefusedWithItsName) {
+  for (const std::string frame : {"base", ""}) {
+    ComponentHarness task{built_plugins(), options()};
+    msg::NeedlePlan plan = sound_plan();
+    plan.header_().frame_id_() = frame;
+    task.send("plan", plan);
+    task.send("markers", msg::MeasuredMarkers{});
+    task.step(now_s_);
+    EXPECT_EQ(task.take<msg::TaskState>("state").back().detail_(),
+              "the plan is stated in frame '" + frame + "', not in 'image'");
+    EXPECT_TRUE(task.take<msg::RegistrationRequest>("request").empty());
+  }
+}
+
+TEST_F(BiopsyComponentTest, AnotherPlanIsSaidOfWhateverIsOtherInIt) {
+  const auto told = [&](const msg::NeedlePlan& plan) {
+    ComponentHarness task{built_plugins(), options()};
+    task.send("plan", sound_plan());
+    task.send("markers", msg::MeasuredMarkers{});
+    task.step(now_s_);
+    task.send("plan", plan);
+    for (int i = 0; i < 3; ++i) task.step(now_s_ + 0.02 * (i + 1));
+    return std::ranges::count(
+        task.lines(),
+        "another plan has come; this procedure goes on with the one that it began with");
+  };
+  EXPECT_EQ(told(sound_plan()), 0) << "the same once more";
+  msg::NeedlePlan plan = sound_plan();
+  plan.target_().x_(0.001);
+  EXPECT_EQ(told(plan), 1);
+  plan = sound_plan();
+  plan.markers_().pop_back();
+  EXPECT_EQ(told(plan), 1);
+  plan = sound_plan();
+  plan.forbidden_()[0].radius_(0.003);
+  EXPECT_EQ(told(plan), 1) << "a vessel that was corrected";
+  plan = sound_plan();
+  plan.head_().clear();
+  EXPECT_EQ(told(plan), 1);
 }
 
 TEST_F(BiopsyComponentTest, SendsTheRegisteredTargetAsAGoal) {

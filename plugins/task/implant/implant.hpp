@@ -51,6 +51,7 @@ class Implant {
   /// The sites of the plan, of the drill in the image, and an implant for each, or none.
   void see_plan(const std::vector<ToolPose>& sites,
                 const std::vector<PlannedImplant>& implants = {});
+  void see_refused_plan(const std::string& reason) { refuse(reason); }
   /// Every sample of the arm.
   void see_arm(const Eigen::Isometry3d& base_T_flange);
   /// How far the handpiece has turned [rad].

@@ -160,7 +160,11 @@ class ImplantComponent final : public Component {
     if (!ports_.plan.latest()) return;
     if (!begun_with_) {
       begun_with_ = *ports_.plan.latest();
-      task_.see_plan(sites_of(*begun_with_), implants_of(*begun_with_));
+      if (const auto wrong = not_in_frame(begun_with_->header_(), kImageFrame, "the plan is")) {
+        task_.see_refused_plan(*wrong);
+      } else {
+        task_.see_plan(sites_of(*begun_with_), implants_of(*begun_with_));
+      }
     }
     if (told_other_plan_ || !is_other(*ports_.plan.latest(), *begun_with_)) return;
     told_other_plan_ = true;

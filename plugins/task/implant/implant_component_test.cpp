@@ -41,6 +41,7 @@ class ImplantComponentTest : public testing::Test {
   /// `shift_m`: of the image's origin, which the jaw does not notice.
   void show_plan(double shift_m = 0) {
     msg::ImplantPlan plan;
+    write_header(plan.header_(), Time{}, kImageFrame);
     msg::MeasuredMarkers markers;
     write_header(markers.header_(), Time{}, "jaw");
     for (const double x : {0.0, 0.02, 0.05}) {
@@ -289,9 +290,25 @@ TEST_F(ImplantComponentTest, AnErrorThatIsToldWithTheMarkersCounts) {
 }
 
 TEST_F(ImplantComponentTest, APlanWithoutSitesIsRefused) {
-  task_.send("plan", msg::ImplantPlan{});
+  msg::ImplantPlan plan;
+  write_header(plan.header_(), Time{}, kImageFrame);
+  task_.send("plan", plan);
   task_.step(now_s_);
   EXPECT_EQ(task_.take<msg::TaskState>("state").back().detail_(), "the plan has no sites");
+}
+
+TEST_F(ImplantComponentTest, APlanInAnotherFrameOrInNoneIsRefusedWithItsName) {
+  const auto refusal = [&](std::string_view frame) {
+    ComponentHarness task{built_plugins(), this->task("med7.yaml")};
+    msg::ImplantPlan plan;
+    write_header(plan.header_(), Time{}, frame);
+    assign(plan.sites_().emplace_back(), Isometry3d::Identity());
+    task.send("plan", plan);
+    task.step(now_s_);
+    return task.take<msg::TaskState>("state").back().detail_();
+  };
+  EXPECT_EQ(refusal("jaw"), "the plan is stated in frame 'jaw', not in 'image'");
+  EXPECT_EQ(refusal(""), "the plan is stated in frame '', not in 'image'");
 }
 
 TEST_F(ImplantComponentTest, AnArmThatTellsNoPositionIsSaid) {

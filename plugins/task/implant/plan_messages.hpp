@@ -29,7 +29,8 @@ inline std::vector<PlannedImplant> implants_of(const msg::ImplantPlan& plan) {
 
 /// Whether two plans tell different places or implants, whatever their stamps.
 inline bool is_other(const msg::ImplantPlan& plan, const msg::ImplantPlan& than) {
-  return plan.markers_() != than.markers_() || plan.sites_() != than.sites_() ||
+  return plan.header_().frame_id_() != than.header_().frame_id_() ||
+         plan.markers_() != than.markers_() || plan.sites_() != than.sites_() ||
          plan.implants_() != than.implants_();
 }
 

@@ -249,6 +249,26 @@ TEST_F(ImplantTest, AJawThatMovesWhileItsPlaceIsAveragedIsNotDrilled) {
   EXPECT_EQ(task_.phase(), Phase::refused);
 }
 
+TEST_F(ImplantTest, AJawThatJumpsToAndFroBetweenTwoPlacesIsNotDrilledBetweenThem) {
+  Parameters parameters = quick();
+  parameters.jaw_samples = 60;
+  const auto locate = [&](double apart_m) {
+    task_ = Implant{parameters, med7(), file_tool_};
+    done_ = 0;
+    begin();
+    go_to(Phase::locating);
+    for (int i = 0; i < 70 && task_.phase() == Phase::locating; ++i) {
+      chain_.tracker_T_patient.translate(Vector3d{0, i % 2 == 0 ? apart_m : -apart_m, 0});
+      step();
+    }
+    return task_.trouble();
+  };
+  EXPECT_EQ(locate(0.0015), "") << "0.75 mm to either side of the mean";
+  EXPECT_EQ(locate(0.003),
+            "the samples of the jaw scatter by 1.51 mm (rms) while its place is averaged, 1 mm are "
+            "allowed");
+}
+
 TEST_F(ImplantTest, AJawThatJumpsBetweenFewSamplesIsFoundToo) {
   begin();
   go_to(Phase::locating);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace armature::task::implant {
@@ -30,9 +31,25 @@ double JawPlace::max_moved(const Isometry3d& tracker_T_jaw, const Isometry3d& fr
   return max_m;
 }
 
+double JawPlace::max_scatter() const {
+  double max_m = 0;
+  for (const Eigen::Vector3d& end : ends_) {
+    max_m = std::max(max_m, average_.error_at(end).rms_m * std::sqrt(average_.count()));
+  }
+  return max_m;
+}
+
 std::optional<std::string> JawPlace::see(const Isometry3d& tracker_T_jaw) {
   average_.add(tracker_T_jaw);
   now_.add(tracker_T_jaw);
+  // Of a jaw that jumps to and fro, means of several samples are alike, and no place of it.
+  const double scatter_m = located() ? max_scatter() : 0;
+  if (scatter_m > parameters_.max_jaw_motion) {
+    return fmt::format(
+        "the samples of the jaw scatter by {:.2f} mm (rms) while its place is averaged, {:g} mm "
+        "are allowed",
+        1e3 * scatter_m, 1e3 * parameters_.max_jaw_motion);
+  }
   if (now_.count() < std::clamp(parameters_.jaw_samples / 2, 1, kJawSamples)) {
     if (located()) now_.clear();
     return std::nullopt;

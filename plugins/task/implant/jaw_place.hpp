@@ -20,7 +20,8 @@ class JawPlace {
   /// Once more from the first sample. `ends`: of the bores, in the jaw's frame [m], where it is
   /// told by how much it has moved.
   void locate(std::vector<Eigen::Vector3d> ends);
-  /// While it is averaged: how it has moved, when it must not, or nullopt.
+  /// While it is averaged: how it has moved, when it must not, or how its samples scatter, or
+  /// nullopt.
   std::optional<std::string> see(const Eigen::Isometry3d& tracker_T_jaw);
   bool located() const { return average_.count() >= parameters_.jaw_samples; }
   const PoseAverage& average() const { return average_; }
@@ -32,6 +33,8 @@ class JawPlace {
  private:
   /// By how much the jaw has moved [m], where that is most.
   double max_moved(const Eigen::Isometry3d& tracker_T_jaw, const Eigen::Isometry3d& from) const;
+  /// Of one sample [m, rms], where that is most.
+  double max_scatter() const;
 
   Parameters parameters_;
   std::vector<Eigen::Vector3d> ends_;

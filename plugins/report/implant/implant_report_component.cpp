@@ -40,6 +40,13 @@ using Eigen::Vector3d;
 constexpr Duration kPeriod = seconds(0.02);
 constexpr double kMillimetres = 1e3;
 
+/// Whether a task that was given this plan asks that.
+bool is_asked_of(const msg::ImplantPlan& plan, const msg::RegistrationRequest& request) {
+  return plan.markers_() == request.image_markers_() &&
+         std::ranges::equal(plan.sites_(), request.targets_(), {},
+                            [](const msg::Pose& site) { return site.position_(); });
+}
+
 double rms(const std::vector<Vector3d>& errors) {
   double sum = 0;
   for (const Vector3d& error : errors) sum += error.squaredNorm();
@@ -65,6 +72,7 @@ class ImplantReport final : public Component {
     registration_.listen([&](const msg::RegistrationResponse& response) {
       jaw_T_image_ = robot_T_image_of(response);
     });
+    read_plan();
     read_chains();
     for (std::size_t i = 0; i < ports_.task_state.size(); ++i) read(ports_.task_state[i], now);
     for (std::size_t i = 0; i < ports_.thread.size(); ++i) {
@@ -141,11 +149,26 @@ class ImplantReport final : public Component {
                        as_set ? "'near_mm'" : "half of what it is from the next site's");
   }
 
-  void read_chains() {
-    if (!ports_.truth.latest() || !ports_.estimate.latest() || !ports_.plan.latest() ||
-        !jaw_T_image_) {
-      return;
+  /// The plan that the task drills, by what it asked the registration: the task goes on with the
+  /// one that it began with when another one comes.
+  void read_plan() {
+    const msg::ImplantPlan* newest = ports_.plan.latest();
+    if (!newest) return;
+    if (!first_plan_) first_plan_ = *newest;
+    if (const msg::RegistrationRequest* request = ports_.request.latest()) {
+      for (const msg::ImplantPlan* plan :
+           {newest, static_cast<const msg::ImplantPlan*>(&*first_plan_)}) {
+        if (is_asked_of(*plan, *request)) plan_ = *plan;
+      }
     }
+    const bool is_other =
+        plan_ && (newest->sites_() != plan_->sites_() || newest->implants_() != plan_->implants_());
+    if (!is_other || std::exchange(told_other_plan_, true)) return;
+    log("another plan has come; errors are measured against the one that was registered");
+  }
+
+  void read_chains() {
+    if (!ports_.truth.latest() || !ports_.estimate.latest() || !plan_ || !jaw_T_image_) return;
     const auto truth = chain_of(*ports_.truth.latest());
     auto estimate = chain_of(*ports_.estimate.latest());
     if (!truth) return degraded("truth: " + truth.error().text);
@@ -165,14 +188,14 @@ class ImplantReport final : public Component {
 
   std::vector<Site> sites() const {
     std::vector<Site> sites;
-    for (const msg::Pose& site : ports_.plan.latest()->sites_()) sites.push_back({to_eigen(site)});
+    for (const msg::Pose& site : plan_->sites_()) sites.push_back({to_eigen(site)});
     return sites;
   }
 
   /// Of the implants' ends.
   std::vector<Site> places() const {
     std::vector<Site> places = sites();
-    const auto& implants = ports_.plan.latest()->implants_();
+    const auto& implants = plan_->implants_();
     places.resize(std::min(places.size(), implants.size()));
     for (std::size_t i = 0; i < places.size(); ++i) {
       places[i].image_T_site.translate(Vector3d{0, 0, -implants[i].above_bottom_()});
@@ -348,6 +371,8 @@ class ImplantReport final : public Component {
   RobotModel robot_;
   Flange flange_;
   std::optional<Time> start_, drilled_at_, ended_at_;
+  std::optional<msg::ImplantPlan> first_plan_, plan_;
+  bool told_other_plan_ = false;
   std::optional<Eigen::Affine3d> jaw_T_image_;
   GuidedChain true_chain_, true_driver_;
   std::optional<BoreMonitor> bores_, implants_;

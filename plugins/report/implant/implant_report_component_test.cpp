@@ -3,6 +3,7 @@
 // drilling, 4. nothing before its time, 5. a jaw that moves and one that is registered again.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -32,15 +33,20 @@ class ImplantReportTest : public testing::Test {
     implant_.above_bottom_(0.0005);
     implant_.length_(0.011);
   }
-  /// With the sites so far along the first one's axis and beside it [m].
-  void show_room(const std::vector<Vector3d>& sites = {Vector3d::Zero()}) {
+  msg::ImplantPlan plan_of(const std::vector<Vector3d>& sites) const {
     msg::ImplantPlan plan;
     for (const Vector3d& site : sites) {
       assign(plan.sites_().emplace_back(),
              forward_kinematics(robot_, home_) * Eigen::Translation3d{site});
     }
     if (has_implants_) plan.implants_().resize(sites.size(), implant_);
+    return plan;
+  }
+  /// With the sites so far along the first one's axis and beside it [m].
+  void show_room(const std::vector<Vector3d>& sites = {Vector3d::Zero()}) {
+    const msg::ImplantPlan plan = plan_of(sites);
     report_.send("plan", plan);
+    for (const msg::Pose& site : plan.sites_()) asked_.push_back(site.position_());
     send_chain("truth", truth_);
     send_chain("estimate", estimate_);
     ask(7);
@@ -61,6 +67,7 @@ class ImplantReportTest : public testing::Test {
   void ask(std::uint64_t id) {
     msg::RegistrationRequest request;
     request.request_id_(id);
+    request.targets_() = asked_;
     report_.send("request", request);
   }
   /// With the image so far [m] from where it is.
@@ -105,11 +112,21 @@ class ImplantReportTest : public testing::Test {
     report_.send("task_state", message);
   }
 
+  void drill() {
+    tell("drilling");
+    report_.step(1);
+    move_arm(1.1, rest_);
+    report_.step(2);
+    tell("drilled");
+    report_.step(5);
+  }
+
   const RobotModel robot_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml");
   const JointVector home_ = resting_position(robot_), rest_ = JointVector::Zero(7);
   const Flange mount_ = flange_of(robot_);
   /// Across the drill at home.
   const Vector3d across_ = forward_kinematics(robot_, home_).linear().col(0);
+  std::vector<msg::Point> asked_;  // where the registered sites are
   bool has_implants_ = false;
   msg::Implant implant_;
   GuidedChain truth_, estimate_;
@@ -144,6 +161,27 @@ TEST_F(ImplantReportTest, TellsTheErrorAtTheSitesAndWhereItIsFrom) {
                            "unexplained_error_mm", "line_deviation_mm", "line_tilt_deg"}) {
     EXPECT_NEAR(told.metrics.at(none), 0, 1e-9) << none;
   }
+}
+
+TEST_F(ImplantReportTest, ErrorsAreThoseAtTheSitesThatWereRegisteredWhenAnotherPlanComes) {
+  show_room();
+  report_.step(0.9);
+  report_.send("plan", plan_of({Vector3d{0.002, 0, 0}}));
+  report_.step(0.95);
+  drill();
+  EXPECT_NEAR(report_.figures().metrics.at("site_error_mm"), 0.3, 1e-9);
+  EXPECT_EQ(std::ranges::count(report_.lines(),
+                               "another plan has come; errors are measured against the one that "
+                               "was registered"),
+            1);
+}
+
+TEST_F(ImplantReportTest, ErrorsAreThoseAtTheSitesThatWereRegisteredWhenAnotherPlanCameBefore) {
+  report_.send("plan", plan_of({Vector3d{0.002, 0, 0}}));
+  report_.step(0.5);
+  show_room();
+  drill();
+  EXPECT_NEAR(report_.figures().metrics.at("site_error_mm"), 0.3, 1e-9);
 }
 
 TEST_F(ImplantReportTest, AnImplantIsMeasuredInTheJawAsItWasWhenThatWentInAndABoreLikewise) {

@@ -157,13 +157,14 @@ TEST(DentalImplant, OtherRegistrationsDoWhereTheMarkersAreGoodEnough) {
 
 TEST(DentalImplant, AnArmThatLagsHasNotDrilledUnlessItStopsAtTheBottoms) {
   const std::string lag = "components.arm.params.lag_s=0.05";
-  const std::string allowed = "components.motion.params.max_deviation_rad=0.1";
-  const DeploymentRun short_of_it = implant({lag, allowed});
+  const std::string joints = "components.motion.params.max_deviation_rad=0.1";
+  const std::string tip = "components.motion.params.max_tip_deviation_m=0.1";
+  const DeploymentRun short_of_it = implant({lag, joints, tip});
   EXPECT_EQ(short_of_it.command.exit_code, 1) << short_of_it.text();
   EXPECT_EQ(short_of_it.status(), "refused");
   EXPECT_NE(short_of_it.word("reason").find("the drill came no nearer than "), std::string::npos)
       << short_of_it.text();
-  expect_drilled(implant({lag, allowed, kTask + "stop_at_sites=true"}));
+  expect_drilled(implant({lag, joints, tip, kTask + "stop_at_sites=true"}));
 }
 
 TEST(DentalImplant, AFastTrackerWithALongLatencyDoesAsWell) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/motion/goal_execution.hpp"
-
 #include <algorithm>
 #include <utility>
+
+#include "armature/motion/goal_execution.hpp"
+#include "armature/motion/tip_bound.hpp"
 
 namespace armature {
 namespace {
@@ -153,8 +154,12 @@ void GoalExecution::come_to(const JointVector& q, Time now) {
 
 void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
   const JointVector wanted = reference_.at(measured.stamp).q;
-  const ReasonText stray = tolerance_violation(
+  ReasonText stray = tolerance_violation(
       model_, measured.q, {wanted, "the reference", "max_deviation"}, options_.max_deviation);
+  const bool joints_are_near = stray.empty();
+  if (joints_are_near) {
+    stray = tip_violation(model_, measured.q, wanted, options_.max_tip_deviation);
+  }
   const bool was_astray = std::exchange(astray_, !stray.empty());
   if (stray.empty()) {
     beside_itself_ = beside_itself_ && (halted() || !rest_.rests());
@@ -165,7 +170,7 @@ void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
     fail_all("execution", stray);
     return stop(now);
   }
-  if (halted() || beside_itself_) return;
+  if (halted() || beside_itself_ || joints_are_near) return;
   come_to(measured.q, now);
   const bool stays = follows_ == true && rest_.rests() && now >= reference_.end();
   if (stays || beside_itself_) {

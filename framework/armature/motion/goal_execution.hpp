@@ -37,6 +37,7 @@ struct ExecutionOptions {
   Duration period;           // of `update`: when a tracked target takes over
   Duration plan_budget;      // from the decision to the splice
   JointBound max_deviation;  // of the arm from the reference
+  double max_tip_deviation;  // [m] of its tip, or its shaft's end, from where that has it
   /// A goal is done when the reference has come to its end and the arm is so near; an arm that is
   /// not within `goal_time` fails it.
   JointBound goal_tolerance;

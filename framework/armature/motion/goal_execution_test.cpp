@@ -186,6 +186,36 @@ TEST_F(GoalExecutionTest, FailsTheGoalAndStopsWithoutAJumpWhenTheArmDoesNotFollo
   EXPECT_EQ(statuses_.back().reason, execution_.trouble());
 }
 
+TEST_F(GoalExecutionTest, ATipThatIsFartherOffThanAnyJointFailsTheGoalAndTheReferenceStays) {
+  GoalExecution execution{gantry_.model, gantry_.limits, execution_of({.max_tip_deviation = 0.01}),
+                          nullptr, "no tracker"};
+  const auto step = [&](const JointVector& off) {
+    now_ = now_ + seconds(0.001);
+    JointVector q = home_;
+    if (execution.reference().started()) q = execution.reference().at(now_).q + off;
+    execution.update(now_, MeasuredJoints{now_, q});
+  };
+  const JointVector none = JointVector::Zero(3);
+  for (int i = 0; i < 100; ++i) step(none);
+  execution.take(goal_at(1, 0.5, 0.5, 0.5), {}, now_);
+  ASSERT_TRUE(
+      execution.take(planned_for(goal_at(1, 0.5, 0.5, 0.5), *execution.take_request()), now_));
+  for (int i = 0; i < 300; ++i) step(JointVector::Constant(3, 0.0057));
+  EXPECT_TRUE(execution.trouble().empty()) << "9.9 mm";
+  ASSERT_FALSE(at_rest(execution.reference().at(now_)));
+  step(JointVector::Constant(3, 0.006));
+  EXPECT_EQ(execution.trouble(),
+            "the tip of the arm is 10.39 mm away from the reference (max_tip_deviation_m is 0.01)");
+  EXPECT_EQ(execution.take_statuses().back().state, State::failed);
+  const JointVector stopped = execution.reference().at(execution.reference().end()).q;
+  for (int i = 0; i < 3000; ++i) step(JointVector::Constant(3, 0.006));
+  EXPECT_EQ(execution.reference().at(now_).q, stopped) << "it does not come to the arm";
+  execution.take(goal_at(2, 0, 0, 0), {}, now_);
+  EXPECT_EQ(execution.take_statuses().back().reason, execution.trouble());
+  step(none);
+  EXPECT_TRUE(execution.trouble().empty()) << "the arm is back";
+}
+
 TEST_F(GoalExecutionTest, ComesBackWithoutAJumpToAnArmThatIsHeldFast) {
   step_to(0.1);
   give(goal_at(1, 1, 1, 1));

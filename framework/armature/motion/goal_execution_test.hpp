@@ -80,9 +80,11 @@ class GoalExecutionTest : public testing::Test {
     return taken;
   }
   PlanAnswer planned(const PlanRequest& request) {
-    const auto goal = std::ranges::find(goals_, request.goal_id, &MotionGoal::id);
+    return planned_for(*std::ranges::find(goals_, request.goal_id, &MotionGoal::id), request);
+  }
+  PlanAnswer planned_for(const MotionGoal& goal, const PlanRequest& request) {
     auto planner = gantry_.planner();
-    auto& plan = plans_.emplace_back(planner.plan(*goal, request.from, request.start));
+    auto& plan = plans_.emplace_back(planner.plan(goal, request.from, request.start));
     PlanAnswer answer{
         .goal_id = request.goal_id, .continues = request.continues, .start = request.start};
     if (plan) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "armature/motion/motion_params.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <string_view>
 
 #include "armature/motion/limit_margin.hpp"
+#include "armature/motion/motion_params.hpp"
 #include "armature/robot/kinematics/locked_joints.hpp"
 
 namespace armature {
@@ -132,6 +131,7 @@ ExecutionOptions execution_of(const Parameters& parameters) {
   return {.period = seconds(1 / parameters.rate),
           .plan_budget = seconds(parameters.plan_budget),
           .max_deviation = {parameters.max_deviation_rad, parameters.max_deviation_m},
+          .max_tip_deviation = parameters.max_tip_deviation,
           .goal_tolerance = {parameters.goal_tolerance_rad, parameters.goal_tolerance_m},
           .rest_tolerance = {parameters.rest_tolerance_rad, parameters.rest_tolerance_m},
           .goal_time = seconds(parameters.goal_time),

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/goal_execution.hpp"
+
 #include <algorithm>
 #include <utility>
 
-#include "armature/motion/goal_execution.hpp"
 #include "armature/motion/tip_bound.hpp"
 
 namespace armature {
@@ -15,8 +16,10 @@ constexpr double kStill = 1e-3;                    // [rad/s] or [m/s] that an a
 constexpr double kSamePlace = 1e-6;                // [rad] or [m]
 constexpr Duration kPausePatience = seconds(0.1);  // behind the start that its plan should have
 // Within this a drive that is on has gone where the reference came.
-constexpr Duration kAnswer = seconds(1);
+constexpr Duration kAnswer = seconds(0.3);
 
+constexpr std::string_view kFollowsNothing =
+    "the arm says that it follows nothing (operating_state): enable it";
 constexpr std::string_view kFollows =
     "the arm says that it follows, so the reference stays: look at its encoders, its load, and "
     "what "
@@ -37,6 +40,10 @@ bool is_planned(MotionMode mode) {
     case MotionMode::guided: return false;
   }
   return false;
+}
+
+bool tells_rest(const MeasuredJoints& measured) {
+  return measured.v.size() > 0 && measured.v.isZero(kStill);
 }
 
 }  // namespace
@@ -203,7 +210,7 @@ void GoalExecution::begin(Time now, const std::optional<MeasuredJoints>& measure
   measured_ = measured;
   rest_.see(measured->q, measured->stamp);
   const bool is_first = begin_after_ == Time{};
-  if (!rest_.rests() && !(is_first && measured->v.isZero(kStill))) {
+  if (!rest_.rests() && !(is_first && tells_rest(*measured))) {
     if (is_first) trouble_ = "the arm moves already; motion begins where it rests";
     return;
   }
@@ -222,11 +229,15 @@ void GoalExecution::stay_with(const MeasuredJoints& measured, Time now) {
     return;
   }
   // An arm that follows, and sags a little, would sink if the reference came to it.
-  if (is_within(options_.goal_tolerance)) {
+  // One that moves while the reference stands is moved by somebody.
+  if (is_within(options_.goal_tolerance) || !rest_.rests()) {
     beside_itself_ = false;
   } else if (!beside_itself_) {
     come_to(measured.q, now);
-    if (beside_itself_) halted_ = ReasonText::format("{}; {}", halted_.view(), kBesideItself);
+    const bool told = halted_.view().find(kBesideItself) != std::string_view::npos;
+    if (beside_itself_ && !told) {
+      halted_ = ReasonText::format("{}; {}", halted_.view(), kBesideItself);
+    }
   }
 }
 
@@ -244,7 +255,11 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
     reference_.start(measured->q, now);
     return;
   }
-  if (halted()) stay_with(*measured, now);
+  if (follows_ == false && !halted() && (active_ || pending_)) {
+    fail_all("execution", kFollowsNothing);
+    stop(now);
+  }
+  if (halted() || follows_ == false) stay_with(*measured, now);
   if (pending_ && pending_->mode == MotionMode::pause && now > pending_->start + kPausePatience) {
     hold_instead(now);
   }
@@ -256,6 +271,7 @@ void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measur
 ReasonText GoalExecution::refusal(const MotionGoal& goal, const ReasonText& wrong) const {
   if (!wrong.empty()) return wrong;
   if (!trouble().empty()) return trouble();
+  if (follows_ == false) return kFollowsNothing;
   if (!is_newer(goal.id, last_goal_id_)) {
     return ReasonText::format("goal {} is not newer than goal {}", goal.id, last_goal_id_);
   }
@@ -290,7 +306,7 @@ void GoalExecution::take(const MotionGoal& goal, const ReasonText& wrong, Time n
   if (!accept(goal, wrong)) return;
   switch (goal.mode) {
     case MotionMode::pause:
-      if (!is_under_way(now)) return stop_for(goal.id, goal.mode, now);
+      if (!is_on_way()) return stop_for(goal.id, goal.mode, now);
       [[fallthrough]];
     case MotionMode::planned:
     case MotionMode::resume:
@@ -303,9 +319,7 @@ void GoalExecution::take(const MotionGoal& goal, const ReasonText& wrong, Time n
   }
 }
 
-bool GoalExecution::is_under_way(Time now) const {
-  return active_ && is_planned(active_mode_) && !armature::at_rest(reference_.at(now));
-}
+bool GoalExecution::is_on_way() const { return reference_.started() && is_planned(active_mode_); }
 
 void GoalExecution::stop_for(std::uint64_t goal_id, MotionMode mode, Time now) {
   stop(now);
@@ -410,7 +424,6 @@ void GoalExecution::execute(std::uint64_t goal_id, MotionMode mode, Time now, in
 
 void GoalExecution::halt(const ReasonText& why, Time now) {
   was_stopped_ = true;
-  untold_ = untold_ || (took_any_ && !halted() && !active_ && !pending_);
   begin_halt(why, now);
 }
 
@@ -418,6 +431,7 @@ void GoalExecution::halt_before_operator(const ReasonText& why, Time now) { begi
 
 void GoalExecution::begin_halt(const ReasonText& why, Time now) {
   if (halted()) return;
+  untold_ = untold_ || (took_any_ && !active_ && !pending_);
   in_hand_ = guided(now);
   halted_ = why;
   fail_all(kStopStage, why);

@@ -129,8 +129,9 @@ class GoalExecution {
   void ask_again(Time now);
   bool still_holds(const PlanAnswer& answer, Time now);
   void track(const MotionGoal& goal, Time now);
-  /// Whether the reference goes along a planned way now.
-  bool is_under_way(Time now) const;
+  /// Whether the reference goes along a planned way, or may stand where it came by one. An arm that
+  /// is paused there goes on, when it is resumed, with what was paused: that is over.
+  bool is_on_way() const;
   void stop_for(std::uint64_t goal_id, MotionMode mode, Time now);
   /// Of a pause whose plan was refused, or does not come.
   void hold_instead(Time now);

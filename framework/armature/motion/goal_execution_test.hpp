@@ -54,7 +54,7 @@ class GoalExecutionTest : public testing::Test {
     measured(q, false);
   }
   void measured(const JointVector& q, bool started) {
-    execution_.update(now_, MeasuredJoints{now_, q});
+    execution_.update(now_, MeasuredJoints{now_, q, JointVector::Zero(q.size())});
     collect();
     const JointState state = execution_.reference().at(now_);
     if (started) {

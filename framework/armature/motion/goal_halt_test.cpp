@@ -114,6 +114,52 @@ TEST_F(GoalExecutionTest, AHaltedArmThatSaysThatItFollowsIsNotMovedByWhatItMeasu
   }
 }
 
+/// In a hand, or without power: each time it rests, and is led on soon after the reference has
+/// come.
+TEST_F(GoalExecutionTest, AHaltedArmThatIsLedOnInStagesIsWhereTheReferenceComes) {
+  step_to(0.2);
+  execution_.halt("the button", now_);
+  JointVector arm = before_.q;
+  for (int stage = 0; stage < 4; ++stage) {
+    for (int k = 0; k < 200; ++k) put(arm += JointVector::Constant(3, 0.0002));
+    for (int k = 0; k < 600; ++k) put(arm);
+  }
+  for (int k = 0; k < 1000; ++k) put(arm);
+  EXPECT_TRUE(before_.q.isApprox(arm, 1e-9));
+}
+
+/// As an arm is that has no power yet: a goal that it does not follow must not be left for it.
+TEST_F(GoalExecutionTest, AnArmThatSaysThatItFollowsNothingTakesNoGoalAndRestsWhenItIsEnabled) {
+  step_to(0.2);
+  const JointVector rested = before_.q;
+  give(goal_at(1, 0.14, 0.2, 0.3));
+  for (int k = 0; k < 20; ++k) put(rested);
+  execution_.set_follows(false);
+  for (int k = 0; k < 2000; ++k) put(rested);
+  EXPECT_EQ(statuses_.back().state, State::failed);
+  give(goal_at(2, 0.14, 0.2, 0.3));
+  EXPECT_EQ(statuses_.back().stage.view(), "accept");
+  EXPECT_EQ(before_.q, rested);
+  execution_.set_follows(true);
+  for (int k = 0; k < 1000; ++k) put(rested);
+  EXPECT_EQ(before_.q, rested);
+  give(goal_at(3, 0.14, 0.2, 0.3));
+  EXPECT_EQ(statuses_.back().state, State::executing);
+}
+
+TEST_F(GoalExecutionTest, TheGoalAfterAnOperatorLetGoBetweenTwoGoalsIsNotBegunByTheRearm) {
+  step_to(0.1);
+  give(goal_at(1, 0.1, 0, 0));
+  step_to(5);
+  execution_.halt_before_operator("hold_to_run was released", now_);
+  step_to(5.5);
+  ASSERT_TRUE(execution_.rearm(now_));
+  give(goal_at(2, 0, 0, 0));
+  EXPECT_EQ(statuses_.back().stage.view(), kStopStage);
+  give(goal_at(3, 0, 0, 0));
+  EXPECT_EQ(statuses_.back().state, State::executing);
+}
+
 TEST_F(GoalExecutionTest, AHaltedArmThatLagsComesToWhereItWasToStop) {
   step_to(0.1);
   give(goal_at(1, 2, -2, 2));

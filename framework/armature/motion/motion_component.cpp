@@ -156,13 +156,16 @@ void Motion::read_incision() {
   const msg::PointStamped& message = *incision_.latest();
   const Eigen::Vector3d point = to_eigen(message.point_());
   bad_incision_ = defect_of_point(message.header_(), point, "the incision");
-  tracker_->pivot()->set_incision(bad_incision_.empty() ? std::optional{point} : std::nullopt);
+  // Until a good one comes the shaft is where it was: in the incision, if it was in one.
+  if (bad_incision_.empty()) tracker_->pivot()->set_incision(point);
 }
 
 ReasonText Motion::pivot_refusal(const MotionGoal& goal, Time now) const {
   if (!parameters_.remote_centre || !tracker_) return {};
   const bool pivots = tracker_->pivots();
-  if (goal.mode == MotionMode::planned && pivots) {
+  const bool is_planned = goal.mode == MotionMode::planned || goal.mode == MotionMode::resume ||
+                          goal.mode == MotionMode::retrace;
+  if (is_planned && pivots) {
     return "the shaft is in an incision, about which no planned path pivots: track a target";
   }
   if (goal.mode != MotionMode::tracking) return {};

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "armature/motion/motion_params.hpp"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -7,7 +9,6 @@
 #include <string_view>
 
 #include "armature/motion/limit_margin.hpp"
-#include "armature/motion/motion_params.hpp"
 #include "armature/robot/kinematics/locked_joints.hpp"
 
 namespace armature {

@@ -81,6 +81,20 @@ TEST_F(MotionPauseTest, APauseOfAnArmThatRestsIsDoneAtOnce) {
   EXPECT_EQ(statuses_.back().reason_(), "the arm is on no planned way");
 }
 
+/// An operator pauses just when the arm has come to a stop of its way, where he would be asked.
+TEST_F(MotionPauseTest, APauseAtTheEndOfALegLetsNoOtherBeginWhenItIsGoneOnWith) {
+  run(100.2);
+  give_goal();
+  run_until_done();
+  const JointVector stop = arm_;
+  give_mode(MotionMode::pause);
+  run_until_done();
+  give_mode(MotionMode::resume, true);
+  run_until_done();
+  EXPECT_EQ(statuses_.back().state_(), 2) << "what was paused is over: " << last_stage();
+  EXPECT_EQ(arm_, stop);
+}
+
 /// Of an arm that was led beside its way nothing is known that leads back.
 TEST_F(MotionPauseTest, AfterAHoldThereIsNoWayToGoOnAlong) {
   run(100.2);

@@ -14,9 +14,9 @@ constexpr double kPivotRounding = 1e-9;  // [m]
 
 }  // namespace
 
-void Pivot::set_incision(const std::optional<Eigen::Vector3d>& point) {
+void Pivot::set_incision(const Eigen::Vector3d& point) {
   incision_ = point;
-  centre_.point = point.value_or(Eigen::Vector3d::Zero());
+  centre_.point = point;
 }
 
 ReasonText Pivot::refusal(const JointVector& q) const {

@@ -24,8 +24,8 @@ class Pivot {
   Pivot(const RobotModel& model, const PivotOptions& options)
       : model_{model}, options_{options}, centre_{.shaft = *model.shaft()} {}
 
-  /// In the base frame [m]; none: the shaft is free.
-  void set_incision(const std::optional<Eigen::Vector3d>& point);
+  /// In the base frame [m]; until it is told the shaft is free.
+  void set_incision(const Eigen::Vector3d& point);
   const std::optional<Eigen::Vector3d>& incision() const { return incision_; }
 
   /// Why the arm cannot pivot about the incision from `q`, or empty: the shaft passes beside it, or

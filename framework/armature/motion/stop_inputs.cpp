@@ -78,8 +78,10 @@ ReasonText StopInputs::stop_of(std::string_view state) {
   unknown_word_.clear();
   enabled_ = is_same_word(kEnabled, state);
   was_enabled_ = was_enabled_ || enabled_;
+  follows_nothing_ = false;
   if (enabled_ || is_same_word(kHolding, state)) return {};
   const std::string_view stop = find_word(kStops, state), lost = find_word(kNotEnabled, state);
+  follows_nothing_ = !stop.empty() || !lost.empty();
   if (!stop.empty()) return ReasonText::format("the arm says {}", stop);
   if (lost.empty()) {
     unknown_word_ = ReasonText::format(
@@ -105,7 +107,7 @@ StopCause StopInputs::cause(Time now) {
   hear(operator_present_);
   const ReasonText arm = hear_arm();
   StopCause cause;
-  if (!arm.empty()) {
+  if (!arm.empty() || follows_nothing_) {
     cause.follows = false;
   } else if (enabled_) {
     cause.follows = true;

@@ -50,10 +50,10 @@ class StopInputs {
   Input<msg::Bool> stop_, rearm_;
   Enable hold_to_run_, operator_present_;
   Input<msg::String> operating_state_;
-  ReasonText stop_of_arm_;    // what the arm said last, if it was a stop
-  bool enabled_ = false;      // that is what the arm said last
-  ReasonText unknown_word_;   // the same, if it was none of the words
-  bool was_enabled_ = false;  // the arm, at some time
+  ReasonText stop_of_arm_;                          // what the arm said last, if it was a stop
+  bool enabled_ = false, follows_nothing_ = false;  // what the arm said last means that
+  ReasonText unknown_word_;                         // the same, if it was none of the words
+  bool was_enabled_ = false;                        // the arm, at some time
   Duration timeout_;
 };
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "armature/robot/trajectories/short_trajectory.hpp"
+
 namespace armature {
 namespace {
 

@@ -60,7 +60,7 @@ void Biopsy::see_head(const NeedleLine& plan, const std::vector<Vector3d>& marke
 
 void Biopsy::see_registration(const RegisteredHead& head, Time now) {
   if (!wants_registration()) return;
-  if (head.fiducial_error_m > parameters_.max_fre) {
+  if (!(head.fiducial_error_m <= parameters_.max_fre)) {
     return refuse_registration(fmt::format("the markers fit to {:.2f} mm rms, {:g} mm are allowed",
                                            1e3 * head.fiducial_error_m, 1e3 * parameters_.max_fre),
                                now);

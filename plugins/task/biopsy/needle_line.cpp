@@ -45,6 +45,15 @@ std::optional<std::string> defect(const NeedleLine& plan, double max_entry_depth
   for (const ForbiddenZone& zone : plan.head) {
     if (auto wrong = armature::defect(zone)) return "the plan's head: " + *wrong;
   }
+  for (const ForbiddenZone& zone : plan.forbidden) {
+    if (auto wrong = armature::defect(zone)) return "what the plan forbids: " + *wrong;
+    if (zone.tool_enters) {
+      return fmt::format(
+          "what the plan forbids: '{}' says that the tool enters it (tool_enters), "
+          "which only the head may",
+          zone.name);
+    }
+  }
   const bool has_head =
       std::ranges::any_of(plan.head, [](const ForbiddenZone& zone) { return zone.radius_m > 0; });
   if (!has_head) {

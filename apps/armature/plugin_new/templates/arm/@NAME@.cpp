@@ -1,4 +1,5 @@
 #include <optional>
+#include <string_view>
 
 #include "armature/kinds/command_watch.hpp"
 #include "armature/kinds/joint_messages.hpp"
@@ -48,7 +49,8 @@ class @CLASS@Arm final : public Component {
 
   void step(Time now) override {
     if (ports_.servo_jp.fresh()) read(*ports_.servo_jp.latest());
-    if (watch_.follows(now, command_, device_.position())) {
+    const bool follows = watch_.follows(now, command_, device_.position());
+    if (follows) {
       ramp_.reset();
       if (ports_.servo_jp.fresh() && refusal_.empty()) device_.move(command_->q, command_->v);
     } else if (command_) {
@@ -58,7 +60,8 @@ class @CLASS@Arm final : public Component {
     write_all_joints(robot_, device_.position(), device_.velocity(), now, *measured);
     measured.publish();
     auto state = ports_.operating_state.loan();
-    state->data_() = device_.operating_state();
+    // While it waits for a command it holds, and motion's reference comes to where it rests.
+    state->data_() = follows || !is_enabled() ? device_.operating_state() : "HOLDING";
     state.publish();
     const ReasonText& trouble = refusal_.empty() ? watch_.why() : refusal_;
     if (trouble.empty()) {
@@ -86,6 +89,7 @@ class @CLASS@Arm final : public Component {
       refusal_ = ReasonText::format("refused a command: {}", refusal_.view());
     }
   }
+  bool is_enabled() const { return std::string_view{device_.operating_state()} == "ENABLED"; }
   void ramp_down(Time now) {
     if (!ramp_) {
       const JointState from{device_.position(), device_.velocity(), 0 * device_.velocity()};

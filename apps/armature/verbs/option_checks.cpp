@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "armature/bus/network.hpp"
+#include "armature/config/problems.hpp"
 #include "armature/values/utf8.hpp"
 #include "terminal_text.hpp"
 

@@ -16,13 +16,15 @@ constexpr double kStill = 1e-3;                    // [rad/s] or [m/s] that an a
 constexpr double kSamePlace = 1e-6;                // [rad] or [m]
 constexpr Duration kPausePatience = seconds(0.1);  // behind the start that its plan should have
 // Within this a drive that is on has gone where the reference came.
-constexpr Duration kAnswer = seconds(0.3);
+constexpr Duration kAnswer = seconds(1);
+constexpr Duration kListens = seconds(0.3);  // behind the first part of the way to an arm
+constexpr double kFirstPart = 10;            // of what a joint that rests may be told off by
+constexpr double kGently = 0.1;              // of the accelerations, on that part
 
 constexpr std::string_view kFollowsNothing =
     "the arm says that it follows nothing (operating_state): enable it";
 constexpr std::string_view kFollows =
-    "the arm says that it follows, so the reference stays: look at its encoders, its load, and "
-    "what "
+    "the arm says that it follows, so the reference stays: look at its encoders, its load and what "
     "holds it";
 constexpr std::string_view kBesideItself =
     "the arm goes along when the reference comes to it, so the reference stays: look at the arm's "
@@ -139,10 +141,18 @@ void GoalExecution::stop(Time now) {
 
 bool GoalExecution::goes_along(const JointVector& q, Time now) const {
   if (!came_ || now - came_->end > kAnswer) return false;
-  const JointVector by = came_->to - came_->from, beyond = q - came_->to;
+  const JointVector by = came_->to - came_->from, went = q - came_->rested;
   Eigen::Index most = 0;
   by.cwiseAbs().maxCoeff(&most);
-  return beyond[most] * by[most] > 0.5 * by[most] * by[most];
+  const double share = went[most] / by[most];
+  return share > 0.5 && share < 2;  // farther it was pushed
+}
+
+double GoalExecution::share_to_come(const JointVector& way, Time now) const {
+  const bool has_listened = came_ && now - came_->end <= kAnswer;
+  if (has_listened) return 1;
+  const JointVector parts = kFirstPart * each(options_.rest_tolerance, model_);
+  return std::min(1.0, 1 / way.cwiseQuotient(parts).cwiseAbs().maxCoeff());
 }
 
 void GoalExecution::come_to(const JointVector& q, Time now) {
@@ -151,12 +161,16 @@ void GoalExecution::come_to(const JointVector& q, Time now) {
     beside_itself_ = true;
     return;
   }
+  if (came_ && now - came_->end <= kListens) return;
   const JointVector from = reference_.at(now).q;
-  const JointVector to = q.cwiseMax(model_.lower()).cwiseMin(model_.upper());
-  if ((to - from).isZero(kSamePlace)) return;
+  const JointVector way = q.cwiseMax(model_.lower()).cwiseMin(model_.upper()) - from;
+  if (way.isZero(kSamePlace)) return;
+  const double share = share_to_come(way, now);
+  const JointVector to = from + share * way;
+  const JointVector max_acceleration = (share < 1 ? kGently : 1) * limits_.max_acceleration;
   reference_.splice(
-      short_move(from, to, limits_.max_velocity, limits_.max_acceleration, now, last_goal_id_));
-  came_ = {.from = from, .to = to, .end = reference_.end()};
+      short_move(from, to, limits_.max_velocity, max_acceleration, now, last_goal_id_));
+  came_ = {.from = from, .to = to, .rested = q, .end = reference_.end()};
 }
 
 void GoalExecution::watch(Time now, const MeasuredJoints& measured) {

@@ -163,13 +163,16 @@ class GoalExecution {
   /// would have come to meanwhile: the arm has not gone there.
   void forget_if_late(Time now);
   /// From rest to rest, within limits: to an arm that rests at `q`, and does not say that it
-  /// follows. Only once to one whose drive is on all the same, and which measures itself beside
-  /// where it is told to be (an encoder that slipped, a load that a weak drive does not hold): the
-  /// reference would come to it for ever, and take it along.
+  /// follows. Not to one whose drive is on all the same, and which measures itself beside where it
+  /// is told to be (an encoder that slipped, a load that a weak drive does not hold): the reference
+  /// would come to it for ever, and take it along. So it comes by little first, 1 mm or 1 mrad, and
+  /// the rest of the way when the arm has not gone along.
   void come_to(const JointVector& q, Time now);
   /// Whether an arm that rests at `q` has gone on by what the reference came to it, by half at
-  /// least.
+  /// least and by twice at most.
   bool goes_along(const JointVector& q, Time now) const;
+  /// How much of the way to an arm the reference comes now: little at first.
+  double share_to_come(const JointVector& way, Time now) const;
   /// Whether the arm follows the reference, and what to do when it does not.
   void watch(Time now, const MeasuredJoints& measured);
   /// True while a hand moves the arm; it does not before the arm has stopped.
@@ -204,6 +207,7 @@ class GoalExecution {
   std::optional<bool> follows_;
   struct Coming {
     JointVector from, to;
+    JointVector rested;  // where the arm did
     Time end;
   };
   std::optional<Coming> came_;  // the last one to an arm that rested elsewhere

@@ -20,6 +20,23 @@ double largest_explained_fit(std::size_t markers, double marker_error_m) {
   return marker_error_m * std::sqrt(chi_squared / (3 * n));
 }
 
+double shown_marker_error(const MarkerPairs& markers, double marker_error_m) {
+  const std::size_t n = markers.image.size();
+  if (n < 3) return marker_error_m;
+  const double fit_m =
+      rms_of(rigid_fit(markers.image, markers.robot), markers.image, markers.robot);
+  return std::max(marker_error_m, fit_m / std::sqrt(1 - 2 / static_cast<double>(n)));
+}
+
+std::vector<bool> markers_that_agree(const Registration& found, double marker_error_m) {
+  constexpr double kErrors = 6;
+  std::vector<bool> set = found.used;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (found.residual_m[i] <= kErrors * marker_error_m) set[i] = true;
+  }
+  return set;
+}
+
 std::optional<std::string> unexplained_fit(const MarkerPairs& markers, const Registration& found,
                                            double marker_error_m) {
   const MarkerPairs used = only(markers, found.used);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whether an error that is stated of the markers explains how they fit: 1. the limit is exceeded
 // once in a million at most, 2. and not much less often, 3. markers with that error pass, whatever
-// the method, 4. a smaller statement does not.
+// the method, 4. a smaller statement does not, 5. and the error that they show is theirs.
 #include "armature/kinds/registration/explained_fit.hpp"
 
 #include <gtest/gtest.h>
@@ -81,6 +81,18 @@ TEST_F(ExplainedFit, TheSquaresOfAFitAreTheChiSquaredThatTheLimitTakesThemFor) {
                 4 * std::sqrt(expected / kTrials) + 1e-3)
         << n;
   }
+}
+
+TEST_F(ExplainedFit, TheErrorThatMarkersShowIsTheirsAndNeverLessThanWhatIsStated) {
+  constexpr int kTrials = 20000;
+  for (const std::size_t n : {3u, 4u, 6u}) {
+    double squares = 0;
+    for (int i = 0; i < kTrials; ++i)
+      squares += std::pow(shown_marker_error(seen(n, 0.0008), 0), 2);
+    EXPECT_NEAR(std::sqrt(squares / kTrials), 0.0008, 0.00001) << n;
+    EXPECT_EQ(shown_marker_error(seen(n, 0.0008), 0.1), 0.1) << n;
+  }
+  EXPECT_EQ(shown_marker_error(seen(2, 0.0008), 0.0001), 0.0001) << "two fit always";
 }
 
 TEST_F(ExplainedFit, TwoMarkersSayNothing) {

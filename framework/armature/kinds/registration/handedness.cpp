@@ -3,8 +3,6 @@
 
 #include <fmt/core.h>
 
-#include <vector>
-
 #include "armature/kinds/registration/explained_fit.hpp"
 #include "armature/kinds/registration/rigid_fit.hpp"
 
@@ -25,23 +23,14 @@ Fits fits_of(const MarkerPairs& markers, double marker_error_m) {
           largest_explained_fit(markers.image.size(), marker_error_m)};
 }
 
-/// The used markers, and those that the map takes to where they were found as well.
-std::vector<bool> agreeing(const Registration& found, double marker_error_m) {
-  constexpr double kErrors = 6;
-  std::vector<bool> set = found.used;
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    if (found.residual_m[i] <= kErrors * marker_error_m) set[i] = true;
-  }
-  return set;
-}
-
 }  // namespace
 
 std::optional<std::string> unchecked_handedness(const MarkerPairs& markers,
                                                 const Registration& found, double marker_error_m) {
   const Fits used = fits_of(only(markers, found.used), marker_error_m);
   if (used.tell()) return std::nullopt;
-  const Fits all = fits_of(only(markers, agreeing(found, marker_error_m)), marker_error_m);
+  const Fits all =
+      fits_of(only(markers, markers_that_agree(found, marker_error_m)), marker_error_m);
   if (all.tell()) return std::nullopt;
   return fmt::format(
       "the markers do not tell whether the images are mirrored: they fit to {:.2g} mm, and their "

@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string>
 
+#include "armature/kinds/registration/explained_fit.hpp"
 #include "armature/kinds/registration/moved_head.hpp"
+#include "armature/kinds/registration/single_error.hpp"
 #include "armature/kinds/registration/target_error.hpp"
 
 namespace armature {
@@ -104,6 +107,47 @@ void target_error_as_predicted(const RegistrationSubject& subject, LawCheck& che
                "the error at the target, rms, as a part of what was predicted");
     check.near(static_cast<double>(beyond) / kTrials, 0.05, 0.006,
                "the part of the errors beyond the bound of 95 of 100");
+  }
+}
+
+/// Markers anywhere on the upper half of a head, of which one is 1 to 30 mm beside its place.
+MarkerPairs with_one_wrong(MovedHead& head, std::size_t count, std::size_t wrong,
+                           const Eigen::Isometry3d& robot_T_image, double marker_error_m) {
+  MarkerPairs markers;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3d way = head.gauss(1).normalized();
+    markers.image.push_back(0.09 * Eigen::Vector3d{way.x(), way.y(), std::abs(way.z())});
+    markers.robot.push_back(robot_T_image * markers.image.back());
+  }
+  markers = head.with_noise(std::move(markers), marker_error_m);
+  markers.robot[wrong] += head.uniform(0.001, 0.03) * head.gauss(1).normalized();
+  return markers;
+}
+
+void one_wrong(const RegistrationSubject& subject, LawCheck& check) {
+  constexpr double kMarkerError = 0.0005;  // [m]
+  constexpr int kTrials = 2000;
+  const Eigen::Vector3d target{0.010, 0.005, 0.012};
+  MovedHead head;
+  for (std::size_t count = 4; count <= 12; ++count) {
+    check.asks(fmt::format("{} markers anywhere on a head, one 1 to 30 mm off, 2000 times, seed {}",
+                           count, kSeed));
+    int beyond = 0;
+    double most = 0;
+    for (int i = 0; i < kTrials; ++i) {
+      const Eigen::Isometry3d truth = head.random_motion();
+      const MarkerPairs markers =
+          with_one_wrong(head, count, static_cast<std::size_t>(i) % count, truth, kMarkerError);
+      const auto found = subject.registrar->find(markers);
+      if (!found || unexplained_fit(markers, *found, kMarkerError)) continue;
+      const auto error = error_with_one_wrong(markers, *found, target, kMarkerError);
+      if (!error) continue;
+      const double off = (found->robot_T_image * target - truth * target).norm();
+      if (off > error->bound95_m) ++beyond;
+      most = std::max(most, off / error->bound95_m);
+    }
+    check.at_most(beyond, 0.01 * kTrials, "the number of those whose error is beyond the bound");
+    check.at_most(most, 2, "the largest error as a part of the bound");
   }
 }
 

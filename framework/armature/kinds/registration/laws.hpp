@@ -36,5 +36,7 @@ std::span<const Law<RegistrationSubject>> registration_laws();
   LAW(DoesNotDependOnWhereTheFramesStand, independent_of_frames, "frames may stand anywhere") \
   LAW(TheErrorAtATargetIsAsPredicted, target_error_as_predicted,                              \
       "the error at a target is as predicted")                                                \
+  LAW(AMarkerThatIsWrongIsFoundOrStandsInTheBound, one_wrong,                                 \
+      "a wrong marker is found or in the bound")                                              \
   LAW(GivesTheSameBitsForTheSameMarkers, same_bits, "equal markers give equal bits")          \
   LAW(RefusesMarkersThatDetermineNothingAndGoesOn, refuses_useless, "useless markers are refused")

@@ -41,6 +41,9 @@ class MovedHead {
   Eigen::Vector3d gauss(double sigma) {
     return sigma * Eigen::Vector3d{normal_(random_), normal_(random_), normal_(random_)};
   }
+  double uniform(double least, double most) {
+    return std::uniform_real_distribution<double>{least, most}(random_);
+  }
 
  private:
   std::mt19937_64 random_{kSeed};

@@ -31,11 +31,13 @@ double radius_of_95_percent(const Eigen::Matrix3d& covariance) {
 
 double radius_of_999_in_1000(double rms_m, double radius95_m) {
   if (!(rms_m > 0) || !(radius95_m > 0)) return 0;
-  const double mean = rms_m * rms_m;
   // 1 - root^2 + z root = cbrt(r^2 / mean), of which the smaller root is meant.
-  const double beyond = std::cbrt(radius95_m * radius95_m / mean) - 1;
+  const double beyond = std::cbrt(radius95_m * radius95_m / (rms_m * rms_m)) - 1;
   const double root = kNormal95 / 2 - std::sqrt(std::max(0.0, kNormal95 * kNormal95 / 4 - beyond));
-  return radius_of(mean, root, kNormal999);
+  // A larger radius than any error of that rms has is taken for one along a line.
+  const double of_line = std::sqrt(2 / 9.0);
+  if (root <= of_line) return radius_of(rms_m * rms_m, root, kNormal999);
+  return radius95_m * radius_of(1, of_line, kNormal999) / radius_of(1, of_line, kNormal95);
 }
 
 }  // namespace armature

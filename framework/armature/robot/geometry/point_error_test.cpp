@@ -43,5 +43,12 @@ TEST(RadiusOf999In1000, IsThatOfTheChiSquaredDistributions) {
   EXPECT_EQ(radius_of_999_in_1000(0, 0), 0);
 }
 
+TEST(RadiusOf999In1000, OfABoundThatIsLargerThanItsRmsHasIsThatOfALine) {
+  const double of_line = 3.2905267314919255 / 1.959963984540054;
+  for (const double bound : {0.002, 0.0025, 0.004, 0.1}) {
+    EXPECT_NEAR(radius_of_999_in_1000(0.001, bound) / bound, of_line, 0.03 * of_line) << bound;
+  }
+}
+
 }  // namespace
 }  // namespace armature

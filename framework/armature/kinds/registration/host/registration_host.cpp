@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -10,6 +11,7 @@
 #include "armature/kinds/registration/handedness.hpp"
 #include "armature/kinds/registration/marker_matching.hpp"
 #include "armature/kinds/registration/registration.hpp"
+#include "armature/kinds/registration/single_error.hpp"
 #include "armature/kinds/registration/target_error.hpp"
 #include "armature/kinds/request_host.hpp"
 #include "armature/messages/armature_msgs.hpp"
@@ -57,6 +59,26 @@ std::optional<std::string> too_many(const msg::RegistrationRequest& request) {
   return std::nullopt;
 }
 
+/// Errors that were predicted from what is stated of the markers become what the markers show
+/// themselves: how they fit, and what each of them would do if it were wrong. Returns why they do
+/// not show that. Of three nobody can tell it: whoever vouches for them vouches for that as well.
+std::optional<std::string> raise_errors(const MarkerPairs& markers,
+                                        const msg::RegistrationRequest& request, Answer& answer) {
+  const double stated_m = request.marker_error_();
+  const double shown_m =
+      shown_marker_error(only(markers, markers_that_agree(answer.found, stated_m)), stated_m);
+  for (std::size_t i = 0; i < answer.errors.size(); ++i) {
+    PointError& error = answer.errors[i];
+    if (stated_m > 0) error = point_error(std::pow(shown_m / stated_m, 2) * error.covariance);
+    if (markers.image.size() == 3) continue;
+    const auto wrong =
+        error_with_one_wrong(markers, answer.found, to_eigen(request.targets_()[i]), stated_m);
+    if (!wrong) return wrong.error().text;
+    error.bound95_m = std::max(error.bound95_m, wrong->bound95_m);
+  }
+  return std::nullopt;
+}
+
 Expected<Answer> answer_to(const Registrar& registrar, const Parameters& parameters,
                            const msg::RegistrationRequest& request) {
   if (auto wrong = too_many(request)) return refuse(std::move(*wrong));
@@ -78,15 +100,17 @@ Expected<Answer> answer_to(const Registrar& registrar, const Parameters& paramet
   if (answer.errors.empty()) return answer;
   auto unexplained = unexplained_fit(markers, answer.found, request.marker_error_());
   if (unexplained) return refuse(std::move(*unexplained));
-  if (parameters.handedness_vouched) return answer;
-  auto unchecked = unchecked_handedness(markers, answer.found, request.marker_error_());
-  if (!unchecked && !request.ordered_()) {
-    unchecked = exchangeable_handedness(
-        {markers.image.size(),
-         mirrored_match_rms(markers.image, robot, request.match_tolerance_())},
-        request.marker_error_());
+  if (!parameters.handedness_vouched) {
+    auto unchecked = unchecked_handedness(markers, answer.found, request.marker_error_());
+    if (!unchecked && !request.ordered_()) {
+      unchecked = exchangeable_handedness(
+          {markers.image.size(),
+           mirrored_match_rms(markers.image, robot, request.match_tolerance_())},
+          request.marker_error_());
+    }
+    if (unchecked) return refuse(std::move(*unchecked));
   }
-  if (unchecked) return refuse(std::move(*unchecked));
+  if (auto unchecked = raise_errors(markers, request, answer)) return refuse(std::move(*unchecked));
   return answer;
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The host of the registrations: 1. one answer for each request, under its header and id, 2.
-// markers in any order are matched first, 3. targets come back with their error, 4. bad requests
-// are answered with their reason.
+// markers in any order are matched first, 3. targets come back with their error, which grows with
+// how the markers fit and with what a wrong one would do, 4. bad requests are answered with their
+// reason.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -71,6 +72,17 @@ class RegistrationHostTest
   RegistrationHostTest()
       : RequestHostTest{plugins(),
                         {.component = "{plugin: registration/first_marker}", .robot = {}}} {}
+
+  /// Of a host that is told that the images are not mirrored.
+  static msg::RegistrationResponse ask_vouched(const msg::RegistrationRequest& question) {
+    ComponentHarness vouched{
+        plugins(),
+        {.component = "{plugin: registration/first_marker, params: {handedness_vouched: true}}",
+         .robot = {}}};
+    vouched.send("request", question);
+    vouched.step(0.1);
+    return vouched.take<msg::RegistrationResponse>("response").at(0);
+  }
 };
 
 TEST_F(RegistrationHostTest, TellsTheMapItsMarkersAndTheTargets) {
@@ -160,6 +172,28 @@ TEST_F(RegistrationHostTest, DoesNotPredictFromAnErrorThatDoesNotExplainTheFit) 
   EXPECT_TRUE(without_targets) << "nothing is predicted from it";
 }
 
+TEST_F(RegistrationHostTest, PredictsFromTheErrorThatTheMarkersShowWhereTheyFitWorseThanIsStated) {
+  msg::RegistrationRequest stretched = request(5);
+  for (auto& marker : stretched.robot_markers_()) marker.x_(marker.x_() * 1.02);
+  stretched.marker_error_(0.0005);
+  FirstMarker::uses_all = true;
+  const msg::RegistrationResponse answer = ask(stretched);
+  FirstMarker::uses_all = false;
+  ASSERT_TRUE(answer.valid_()) << answer.reason_();
+  EXPECT_GT(answer.targets_()[0].error_rms_(), 0.0006);
+  EXPECT_GT(answer.targets_()[0].error_95_(), answer.targets_()[0].error_rms_());
+}
+
+TEST_F(RegistrationHostTest, CountsInTheBoundWhatAWrongMarkerDoes) {
+  const double right = ask(request(5)).targets_()[0].error_95_();
+  msg::RegistrationRequest wrong = request(5);
+  wrong.robot_markers_().back().z_(wrong.robot_markers_().back().z_() + 0.002);  // of marker 1
+  const msg::RegistrationResponse answer = ask(wrong);
+  ASSERT_TRUE(answer.valid_()) << answer.reason_();
+  EXPECT_GT(answer.targets_()[0].error_95_(), 0.002);
+  EXPECT_LT(right, 0.0015);
+}
+
 /// Three markers in both frames, of which one mirrors the other.
 msg::RegistrationRequest mirrored_triangle() {
   msg::RegistrationRequest three = request(5);
@@ -177,13 +211,17 @@ TEST_F(RegistrationHostTest, RefusesMarkersThatDoNotTellAMirroredImageUnlessSome
   EXPECT_NE(answer.reason_().find("the markers do not tell whether the images are mirrored"),
             std::string::npos)
       << answer.reason_();
-  ComponentHarness vouched{
-      plugins(),
-      {.component = "{plugin: registration/first_marker, params: {handedness_vouched: true}}",
-       .robot = {}}};
-  vouched.send("request", mirrored_triangle());
-  vouched.step(0.1);
-  EXPECT_TRUE(vouched.take<msg::RegistrationResponse>("response").at(0).valid_());
+  EXPECT_TRUE(ask_vouched(mirrored_triangle()).valid_());
+}
+
+TEST_F(RegistrationHostTest, NamesAMarkerThatNothingChecks) {
+  msg::RegistrationRequest line = request(5);
+  line.image_markers_()[3] = line.image_markers_()[0];
+  line.image_markers_()[3].x_(0.05);  // between the first two
+  line.ordered_(true);
+  line.robot_markers_() = line.image_markers_();
+  EXPECT_EQ(ask_vouched(line).reason_(),
+            "nothing checks marker 3: without it the others lie nearly on one line");
 }
 
 TEST_F(RegistrationHostTest, MarkersMayBeToldInAnyFrameAndTheAnswerIsInTheSame) {

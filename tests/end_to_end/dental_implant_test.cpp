@@ -296,7 +296,7 @@ TEST(DentalImplant, CalibrationsMarkersAndSitesThatAreKnownTooBadlyAreRefused) {
   expect_refused({kTracker + "markers_mm=[0, 0, 0, 30, 0, 0, 70, 0, 0]"},
                  "the markers lie nearly on one line");
   expect_refused({kTask + "max_tre_mm=0.3"},
-                 "site 1 is known to 0.39 mm (95 %), 0.3 mm are required");
+                 "site 1 is known to 0.72 mm (95 %), 0.3 mm are required");
 }
 
 TEST(DentalImplant, AMarkersErrorThatDoesNotExplainTheFitIsNotBelieved) {

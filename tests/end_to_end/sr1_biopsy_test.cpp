@@ -120,7 +120,7 @@ TEST(Sr1Biopsy, MarkersThatDecideNothingAreRefused) {
 TEST(Sr1Biopsy, AMarkerThatMovedOrATargetKnownTooBadlyIsRefused) {
   expect_refused({kHead + "marker_error_mm=8"}, "no choice of measured points keeps");
   expect_refused({"components.task.params.max_tre_mm=0.3"},
-                 "the target is known to 0.36 mm (95 %), 0.3 mm are required");
+                 "the target is known to 0.68 mm (95 %), 0.3 mm are required");
   expect_refused({"components.task.params.max_fre_mm=0.3"},
                  "the markers fit to 0.54 mm rms, 0.3 mm are allowed");
 }

@@ -14,6 +14,7 @@
 
 #include "armature/config/problems.hpp"
 #include "armature/config/source_text.hpp"
+#include "armature/robot/files/urdf_words.hpp"
 
 namespace armature {
 namespace {
@@ -88,6 +89,11 @@ UrdfDocument::Places UrdfDocument::places_in(const std::string& text, const std:
                         "not a robot description: a URDF file holds one <robot>; of a xacro file "
                         "make one with `xacro`"}}};
   Places places;
+  config::Problems problems;
+  for (auto* one = robot->FirstChildElement("joint"); one; one = one->NextSiblingElement("joint")) {
+    check_joint_words(*one, file, problems);
+  }
+  problems.throw_if_any();
   for (const char* kind : {"link", "joint"}) {
     for (auto* one = robot->FirstChildElement(kind); one; one = one->NextSiblingElement(kind)) {
       if (const char* name = one->Attribute("name"))

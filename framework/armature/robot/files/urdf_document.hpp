@@ -15,7 +15,7 @@ namespace armature {
 class UrdfDocument {
  public:
   /// Throws config::ConfigError: the file cannot be read, is no XML, or urdfdom refuses it (its own
-  /// messages, at the joint or link that they name).
+  /// messages, at the joint or link that they name), or would drop something of a joint.
   static UrdfDocument load(const std::filesystem::path& file);
 
   const urdf::ModelInterface& model() const { return *model_; }

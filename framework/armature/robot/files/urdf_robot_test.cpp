@@ -160,6 +160,44 @@ TEST_F(UrdfFile, SaysWhichAxisAndWhichNumberIsNone) {
   }
 }
 
+TEST_F(UrdfFile, SaysWhatUrdfdomWouldDropAndTakeADefaultFor) {
+  const auto said = [&](const std::string& inside) {
+    return problems_of(arm("revolute", kLimit + "\n" + inside));
+  };
+  const std::string in = "arm.urdf:4:1: joint 'j2' has ";
+  EXPECT_THAT(
+      said("<origin xzy='0 0 0.1'/>"),
+      ElementsAre(in + "'xzy' in its <origin>, which is none of URDF; did you mean 'xyz'?"));
+  EXPECT_THAT(
+      said("<origin quat_xyzw='0 0 0 1'/>"),
+      ElementsAre(in + "'quat_xyzw' in its <origin>, which is none of URDF; known: xyz, rpy"));
+  EXPECT_THAT(
+      said("<orign xyz='0 0 0.1'/>"),
+      ElementsAre(in + "an element <orign>, which is none of URDF; did you mean 'origin'?"));
+  EXPECT_THAT(said("<axes xyz='0 0 1'/>"),
+              ElementsAre(in + "an element <axes>, which is none of URDF; did you mean 'axis'?"));
+  EXPECT_THAT(said("<mimic joint='j1' multiplyer='-1'/>"),
+              ElementsAre(in + "'multiplyer' in its <mimic>, which is none of URDF; did you mean "
+                               "'multiplier'?"));
+  EXPECT_THAT(said("<axis xyz='0 0 1'/><axis xyz='0 1 0'/>"),
+              ElementsAre(in + "a second <axis>, and only the first is read"));
+  EXPECT_THAT(said(kLimit), ElementsAre(in + "a second <limit>, and only the first is read"));
+  EXPECT_THAT(
+      problems_of(arm("prismatic", "\n<limit lowr='-1' upper='1' effort='1' velocity='2'/>")),
+      ElementsAre(in + "'lowr' in its <limit>, which is none of URDF; did you mean 'lower'?"));
+}
+
+TEST_F(UrdfFile, MayHoldWordsOfOthersAndLeaveOutWhatUrdfHasADefaultFor) {
+  EXPECT_THAT(problems_of(arm("revolute",
+                              "<limit lower='-1' upper='1' effort='1' velocity='2' "
+                              "acceleration='3' drake:acceleration='3'/>"
+                              "<hardwareInterface>EffortJointInterface</hardwareInterface>"
+                              "<drake:origin/><dynamics damping='0.1' armature='0.2'/>"
+                              "<safety_controller k_velocity='10' soft_lower_limit='-1'/>"
+                              "<calibration rising='0'/>")),
+              ElementsAre());
+}
+
 TEST_F(UrdfFile, SaysWhatAMimickingJointCannotFollow) {
   const auto mimic = [](const std::string& what) { return kLimit + "<mimic " + what + "/>"; };
   EXPECT_THAT(problems_of(arm("revolute", mimic("joint='j1'")), "l1"),

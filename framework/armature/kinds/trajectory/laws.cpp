@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "armature/kinds/trajectory/random_requests.hpp"
@@ -192,6 +193,50 @@ void same_trajectory_bits(const TrajectorySubject& subject, LawCheck& check) {
   if (!check.equal(a->pieces.size(), b->pieces.size(), "the number of pieces")) return;
   for (std::size_t i = 0; i < a->pieces.size(); ++i) {
     check.that(a->pieces[i].c == b->pieces[i].c, "equal requests give the same coefficients");
+  }
+}
+
+void far_numbers(const TrajectorySubject& subject, LawCheck& check) {
+  constexpr std::array kFar{1e-320,
+                            1e-300,
+                            1e-30,
+                            1e-9,
+                            1e-5,
+                            1e5,
+                            1e14,
+                            1e20,
+                            1e300,
+                            1e308,
+                            std::numeric_limits<double>::infinity()};
+  RandomRequests random;
+  for (const int parts : {1, 3}) {
+    TrajectoryRequest good = random.request(0);
+    good.segments = {random.curve_from(good.from.q, parts, 0.5)};
+    const auto asked = [&](const std::string& what, double number, auto change) {
+      TrajectoryRequest wanted = good;
+      change(wanted, number);
+      check.asks(fmt::format("{} {}, {} parts, seed {}", what, number, parts, kSeed));
+      const auto planned = subject.planner->plan(wanted);
+      if (!planned) {
+        check.refused(planned, what);
+        return;
+      }
+      check.at_most(planned->duration_s(), 1.1e6, "how long it lasts [s]");
+      check_sound(planned, wanted, check);
+    };
+    for (const double number : kFar) {
+      asked("velocities of", number, [](auto& r, double x) { r.max_velocity.setConstant(x); });
+      asked("one velocity of", number, [](auto& r, double x) { r.max_velocity[0] = x; });
+      asked("accelerations of", number,
+            [](auto& r, double x) { r.max_acceleration.setConstant(x); });
+      asked("jerks of", number,
+            [](auto& r, double x) { r.max_jerk = JointVector::Constant(kDof, x); });
+      asked("a duration of", number, [](auto& r, double x) { r.segments[0].duration_s = x; });
+      asked("velocities and accelerations of", number, [](auto& r, double x) {
+        r.max_velocity.setConstant(x);
+        r.max_acceleration.setConstant(x);
+      });
+    }
   }
 }
 

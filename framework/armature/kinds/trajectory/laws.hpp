@@ -42,5 +42,7 @@ std::span<const Law<TrajectorySubject>> trajectory_laws();
       "a moving start comes to rest")                                                     \
   LAW(ATinyMotionHasAFiniteTrajectory, tiny_motion, "a tiny motion is finite")            \
   LAW(EqualRequestsGiveEqualBits, same_trajectory_bits, "equal requests give equal bits") \
+  LAW(NumbersFarFromAnyRobotAreRefusedOrKept, far_numbers,                                \
+      "numbers far from any robot are refused or kept")                                   \
   LAW(ARequestThatContradictsItselfIsRefusedWithAReason, refuses_contradictions,          \
       "a bad request is refused")

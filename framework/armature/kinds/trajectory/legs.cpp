@@ -3,14 +3,17 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace armature {
 namespace {
 
-constexpr double kNearest_s = 1e-6;  // waypoints nearer in s than this are one
-constexpr double kStartGap = 1e-6;   // [rad] or [m] between from.q and the first waypoint
-constexpr int kStraightParts = 8;    // of a straight line that runs on through a via
+constexpr double kNearest_s = 1e-6;   // waypoints nearer in s than this are one
+constexpr double kStartGap = 1e-6;    // [rad] or [m] between from.q and the first waypoint
+constexpr double kBriefest_s = 1e-6;  // that a segment may be told to last
+constexpr double kLeastLimit = 1e-9;  // [rad/s] or [m/s], and of accelerations and jerks
+constexpr int kStraightParts = 8;     // of a straight line that runs on through a via
 
 std::string defect(const JointSegment& segment, Eigen::Index dof) {
   if (segment.s.size() < 2 || segment.s.size() != segment.q.size()) {
@@ -26,8 +29,13 @@ std::string defect(const JointSegment& segment, Eigen::Index dof) {
   if (!(std::abs(first) <= kNearest_s && std::abs(last - 1) <= kNearest_s)) {
     return "has an s that does not go from 0 to 1";
   }
-  if (segment.duration_s && !(*segment.duration_s > 0)) return "lasts no time";
-  if (segment.duration_s && !std::isfinite(*segment.duration_s)) return "lasts for ever";
+  if (!segment.duration_s) return {};
+  if (!(*segment.duration_s > 0)) return "lasts no time";
+  if (!std::isfinite(*segment.duration_s)) return "lasts for ever";
+  if (*segment.duration_s < kBriefest_s || *segment.duration_s > kLongest_s) {
+    return fmt::format("lasts {:.3g} s, not {:g} s to {:g} s", *segment.duration_s, kBriefest_s,
+                       kLongest_s);
+  }
   return {};
 }
 
@@ -39,14 +47,15 @@ bool moves(const JointSegment& segment) {
   return way > kStillWay;
 }
 
-/// The speeds by which segments are measured: the limits, none so much larger than the smallest one
-/// that what its joint goes alone counted for nothing. Without any limit all joints are as fast.
+/// The speeds by which segments are measured: the limits as parts of the smallest one, none so much
+/// larger that what its joint goes alone counted for nothing. Without any limit all joints are as
+/// fast.
 JointVector paces(const JointVector& max_velocity) {
   constexpr double kMostOfSlowest = 1e3;
   const double slowest = max_velocity.minCoeff();
   if (!std::isfinite(slowest)) return JointVector::Ones(max_velocity.size());
-  return max_velocity.cwiseMin(
-      JointVector::Constant(max_velocity.size(), kMostOfSlowest * slowest));
+  return (max_velocity / slowest)
+      .cwiseMin(JointVector::Constant(max_velocity.size(), kMostOfSlowest));
 }
 
 /// A measure of a segment's length that lets the speed be about even across vias: the time that the
@@ -126,6 +135,11 @@ std::string defect_of(const TrajectoryRequest& request) {
   if (!positive(request.max_velocity) || !positive(request.max_acceleration) ||
       (limits_jerk && !positive(request.max_jerk))) {
     return "the limits are not positive numbers, one per joint";
+  }
+  const double least =
+      std::min(request.max_velocity.minCoeff(), request.max_acceleration.minCoeff());
+  if (std::min(least, limits_jerk ? request.max_jerk.minCoeff() : least) < kLeastLimit) {
+    return fmt::format("a limit is smaller than {:g}", kLeastLimit);
   }
   if (request.segments.empty()) return "there is no segment";
   for (std::size_t i = 0; i < request.segments.size(); ++i) {

@@ -13,6 +13,7 @@
 namespace armature ARMATURE_EXPORT {
 
 inline constexpr double kStillWay = 1e-12;  // [rad] or [m]: no motion
+inline constexpr double kLongest_s = 1e6;   // of a leg: twelve days
 
 /// The joint path from one stop to the next: one segment, or several joined at vias.
 struct Leg {

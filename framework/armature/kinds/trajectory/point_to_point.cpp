@@ -29,7 +29,7 @@ std::optional<Trajectory> point_to_point(const TrajectoryRequest& request) {
   const JointSegment& line = request.segments.front();
   const JointVector way = line.q[1] - line.q[0];
   const double needed = needed_s(request, way);
-  if (needed == 0) return std::nullopt;
+  if (needed == 0 || !(needed <= kLongest_s)) return std::nullopt;
   if (line.duration_s && needed > *line.duration_s * (1 + kLimitRounding)) return std::nullopt;
   const double T =
       line.duration_s.value_or(std::max(needed * (1 + kLimitRounding), kShortestLeg_s));

@@ -23,6 +23,7 @@ class LegTimer {
   Expected<Trajectory> from_rest() const {
     const Trajectory unit = shape_.in(1, rest());
     const double needed = needed_factor(request_, unit);
+    if (!(needed <= kLongest_s)) return too_long(needed);
     if (!leg_.duration_s)
       return stretched(unit, std::max(needed * (1 + kLimitRounding), kShortestLeg_s));
     if (needed > *leg_.duration_s * (1 + kLimitRounding)) return too_short(needed);
@@ -61,6 +62,7 @@ class LegTimer {
     const double stopping =
         request_.from.v.cwiseAbs().cwiseQuotient(request_.max_acceleration).maxCoeff();
     const double first = std::max(kFirstTry * needed, stopping);
+    if (!(first <= kLongest_s)) return too_long(first);
     for (int i = 0; i < kMaxTries; ++i) {
       const double duration = first * std::pow(kGrowth, i);
       Trajectory found = shape_.in(duration, request_.from);
@@ -83,6 +85,11 @@ class LegTimer {
     return found;
   }
 
+  tl::unexpected<Reason> too_long(double needed_s) const {
+    return refuse(
+        fmt::format("segment {} takes {:.3g} s within its limits, {:g} s at most are planned",
+                    leg_.first_segment + 1, needed_s, kLongest_s));
+  }
   tl::unexpected<Reason> too_short(double needed_s) const {
     return refuse(fmt::format("segment {} lasts {:.3f} s, its limits need {:.3f} s",
                               leg_.first_segment + 1, *leg_.duration_s, needed_s));

@@ -55,13 +55,19 @@ class IncisionReport final : public Component {
   }
 
   void summarize(Summary& summary) const override {
-    if (samples_ == 0) return;
-    const double rms = std::sqrt(squares_ / static_cast<double>(samples_));
-    summary.metric("incision_deviation_mm", "shaft off the incision, at most [mm]",
-                   1e3 * max_deviation_);
-    summary.metric("incision_deviation_rms_mm", "the same, rms [mm]", 1e3 * rms);
-    summary.metric("min_depth_mm", "depth of the tip, at least [mm]", 1e3 * min_depth_);
-    summary.metric("max_depth_mm", "at most [mm]", 1e3 * max_depth_);
+    if (samples_ == 0 && not_finite_ == 0) return;
+    const auto metric = [&](const char* key, const char* title, double value_m) {
+      if (not_finite_ == 0) return summary.metric(key, title, 1e3 * value_m);
+      summary.not_measured(
+          key, title,
+          fmt::format("samples at which the shaft's distance from the incision was not finite: {}",
+                      not_finite_));
+    };
+    metric("incision_deviation_mm", "shaft off the incision, at most [mm]", max_deviation_);
+    metric("incision_deviation_rms_mm", "the same, rms [mm]",
+           std::sqrt(squares_ / static_cast<double>(samples_)));
+    metric("min_depth_mm", "depth of the tip, at least [mm]", min_depth_);
+    metric("max_depth_mm", "at most [mm]", max_depth_);
   }
 
  private:
@@ -85,6 +91,11 @@ class IncisionReport final : public Component {
     }
     const Eigen::Isometry3d base_T_tool = forward_kinematics(model_, *q);
     const double deviation = centre_.deviation(base_T_tool), depth = centre_.depth(base_T_tool);
+    if (!std::isfinite(deviation) || !std::isfinite(depth)) {
+      complaint_ = "the shaft's distance from the incision is not finite";
+      ++not_finite_;
+      return;
+    }
     max_deviation_ = std::max(max_deviation_, deviation);
     squares_ += deviation * deviation;
     min_depth_ = std::min(min_depth_, depth);
@@ -95,7 +106,7 @@ class IncisionReport final : public Component {
   RobotModel model_;
   RemoteCentre centre_;
   bool told_ = false;
-  std::size_t samples_ = 0;
+  std::size_t samples_ = 0, not_finite_ = 0;
   double max_deviation_ = 0, squares_ = 0;                       // [m], [m2]
   double min_depth_ = std::numeric_limits<double>::infinity();   // [m]
   double max_depth_ = -std::numeric_limits<double>::infinity();  // [m]

@@ -65,6 +65,18 @@ TEST_F(IncisionReportTest, TellsNothingBeforeAnIncisionIsRegistered) {
   EXPECT_TRUE(report_.figures().metrics.empty());
 }
 
+TEST_F(IncisionReportTest, ADistanceThatIsNoNumberIsNotMeasuredAndNoGoalIsMetByIt) {
+  tell_incision(point_at(0.1));
+  sample(home_);
+  constexpr double kFar = std::numeric_limits<double>::max();
+  tell_incision({kFar, -kFar, kFar});
+  sample(home_);
+  EXPECT_EQ(report_.status().reason, "the shaft's distance from the incision is not finite");
+  EXPECT_TRUE(report_.figures().metrics.empty());
+  EXPECT_EQ(report_.figures().unmeasured.at("incision_deviation_mm"),
+            "samples at which the shaft's distance from the incision was not finite: 1");
+}
+
 TEST_F(IncisionReportTest, AnIncisionThatIsNoneIsSaidWithItsNumbers) {
   tell_incision({0.1, std::numeric_limits<double>::quiet_NaN(), 0.2});
   sample(home_);

@@ -5,7 +5,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <numbers>
 #include <system_error>
 #include <utility>
 
@@ -47,10 +49,32 @@ std::string out_of_range(const KeySpec& key, std::string_view written, double va
                      key.because);
 }
 
+/// What is wrong with a length or an angle that no key limits: most are told in another unit.
+std::string far_from_any_robot(const KeySpec& key, std::string_view written, double value) {
+  constexpr double kFarthest_m = 100, kMost_deg = 1e6, kDegree = std::numbers::pi / 180;
+  const UnitSuffix* unit = unit_of(written);
+  if (!unit || key.max) return "";
+  if (unit->si == "m" && std::abs(value) * unit->to_si > kFarthest_m) {
+    return fmt::format("is {}, farther than {:g} m; is it told in another unit?", value,
+                       kFarthest_m);
+  }
+  if (unit->si == "rad" && std::abs(value) * unit->to_si > kMost_deg * kDegree) {
+    return fmt::format("is {}, more than {:g} degrees; is it told in another unit?", value,
+                       kMost_deg);
+  }
+  return "";
+}
+
+/// What is wrong with a number that stands under `written`; empty: nothing.
+std::string fault_of(const KeySpec& key, std::string_view written, double value) {
+  const std::string fault = out_of_range(key, written, value);
+  return fault.empty() ? far_from_any_robot(key, written, value) : fault;
+}
+
 Converted<Value> number_of(const KeySpec& key, std::string_view written, const Node& node) {
   const auto value = to_number(node);
   if (!value) return tl::unexpected{value.error()};
-  const std::string fault = out_of_range(key, written, *value);
+  const std::string fault = fault_of(key, written, *value);
   if (!fault.empty()) return refused(node, fault);
   return Value{*value * si_factor(written)};
 }
@@ -68,7 +92,7 @@ Converted<Value> numbers_of(const KeySpec& key, std::string_view written, const 
   if (!values) return tl::unexpected{values.error()};
   for (std::size_t i = 0; i < values->size(); ++i) {
     double& value = (*values)[i];
-    const std::string fault = out_of_range(key, written, value);
+    const std::string fault = fault_of(key, written, value);
     if (!fault.empty()) {
       return refused(node.items()[i], fmt::format("item {} {}", i + 1, fault));
     }

@@ -153,6 +153,33 @@ TEST(Tables, GiveValuesInSiUnitsByWhateverKeyTheyAreWritten) {
   EXPECT_TRUE(problems.empty()) << text_of(problems);
 }
 
+TEST(Tables, RefuseLengthsAndAnglesThatNoRobotHasUnlessTheyLimitThemThemselves) {
+  const auto said = [](const std::string& yaml, std::optional<double> max = {}) {
+    const std::vector<KeySpec> keys{{.name = "d_m", .max = max, .optional = true, .also = "d_mm"},
+                                    {.name = "turn_deg", .optional = true},
+                                    {.name = "at_mm", .type = Type::numbers, .optional = true}};
+    Problems problems;
+    const Node node = parse_text(yaml, "f");
+    MapReader map{node, "slide", keys, problems};
+    map.optional_number("d_m");
+    map.optional_number("turn_deg");
+    map.optional_numbers("at_mm");
+    map.finish();
+    return text_of(problems);
+  };
+  EXPECT_EQ(said("{d_m: 100, turn_deg: -1000000, at_mm: [100000, -100000]}"), "");
+  EXPECT_EQ(said("{d_m: 120}"),
+            "f:1:7: 'd_m' is 120, farther than 100 m; is it told in another unit?\n");
+  EXPECT_EQ(said("{d_mm: -120000}"),
+            "f:1:8: 'd_mm' is -120000, farther than 100 m; is it told in another unit?\n");
+  EXPECT_EQ(said("{at_mm: [1, 1.0e+6]}"),
+            "f:1:13: 'at_mm' item 2 is 1000000, farther than 100 m; is it told in another unit?\n");
+  EXPECT_EQ(
+      said("{turn_deg: 1000001}"),
+      "f:1:12: 'turn_deg' is 1000001, more than 1e+06 degrees; is it told in another unit?\n");
+  EXPECT_EQ(said("{d_m: 120}", 1000), "");
+}
+
 TEST(Tables, RefuseWhatIsOutOfRangeInTheUnitThatIsWritten) {
   Problems problems;
   const auto read = [&](const std::string& yaml) {

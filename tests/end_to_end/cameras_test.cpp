@@ -103,6 +103,21 @@ TEST(LampWhoseCameras, FreezeWhileThePatientMovesStaysWhereItIsAndSaysWhy) {
   EXPECT_EQ(told.find("searching", aligned), std::string::npos) << told;
 }
 
+TEST(LampWhoseCameras, FreezeWithoutNoiseStaysWhereItIsWhenThePatientHasComeToRest) {
+  for (const std::string which : {"left", "right"}) {
+    const DeploymentRun run = run_deployment(
+        {.settings = {kSimulated, "run.time_limit_s=14",
+                      "components.report.params.expect_move=true", kScene + "noise=0",
+                      kScene + "move_at_s=9", kScene + "move_duration_s=2",
+                      kScene + (which == "left" ? "move_mm=[0, -30, 0]" : "move_mm=[0, 30, 0]"),
+                      kScene + "frozen=" + which, kScene + "frozen_at_s=9"}});
+    EXPECT_LT(std::abs(run.figure("distance_error_mm")), 1.5) << which << '\n' << run.text();
+    EXPECT_EQ(run.status(), "goals_missed") << run.text();
+    EXPECT_NE(run.text().find("the " + which + " camera is frozen"), std::string::npos)
+        << run.text();
+  }
+}
+
 TEST(LampWhoseCameras, AreExchangedAsksForItAtTheEndOfARoundOfTheSearch) {
   const DeploymentRun run =
       run_deployment({.settings = {kSimulated, "run.time_limit_s=18",

@@ -15,10 +15,12 @@ namespace armature ARMATURE_EXPORT {
 /// the picture before: 0 of its pixels differ.
 ///
 /// That alone proves nothing: the picture of a still scene without noise is the same, too. It is a
-/// fault where the other camera's picture changed meanwhile, in an eighth of its pixels or more; or
-/// where the camera has shown noise, which no still scene takes away. Noise is what changed a third
-/// of the pixels or more in twelve of sixteen parts of the picture, three pairs in a row: a thing
-/// that moves before a wall does not.
+/// fault where the camera has shown noise, which no still scene takes away; or where the other
+/// camera has seen something move since: one of 200 of its pixels, by more than 12 grey values, in
+/// the columns that both cameras see of what is not nearer than a face. A camera that was found
+/// frozen stays so until its own picture changes, also when what moved has come to rest. Noise is
+/// what changed a third of the pixels or more in twelve of sixteen parts of the picture, three
+/// pairs in a row: a thing that moves before a wall does not.
 class FrozenCameras {
  public:
   struct Frozen {
@@ -30,18 +32,18 @@ class FrozenCameras {
   std::optional<Frozen> look_at(const ImageView& left, const ImageView& right);
 
  private:
-  struct Change {
-    double share = 1;       // of the thinned pixels
-    bool is_noise = false;  // in most parts of the picture
-  };
   struct Camera {
-    /// What changed since the last picture; all of the first one.
-    Change change(const ImageView& picture);
+    /// Keeps a thinned copy of the newest picture and of the one before.
+    void take(const ImageView& picture);
+    bool has_changed() const { return is_first || now != before; }
 
-    std::vector<std::uint8_t> thinned;
-    int width = 0, height = 0;  // of the picture [px]
-    int noisy_pairs = 0;        // in a row
-    int repeats = 0;            // how often the same picture has come again
+    std::vector<std::uint8_t> now, before;
+    std::vector<std::uint8_t> other_then;  // the other camera's, when this one's changed last
+    int width = 0, height = 0;             // of the picture [px]
+    bool is_first = true;                  // of its size
+    int noisy_pairs = 0;                   // in a row
+    int repeats = 0;                       // how often the same picture has come again
+    const char* proof = nullptr;           // that it is frozen
   };
 
   std::array<Camera, 2> cameras_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the host of the face pose estimators sees of the cameras: 1. frozen ones are refused, and a
-// still scene without noise is none, 2. rows that differ on average are told before any pair is
-// refused.
+// What the host of the face pose estimators sees of the cameras: 1. frozen ones are refused until
+// their own picture changes, 2. a still scene without noise, and what one camera alone sees, are no
+// frozen camera, 3. rows that differ on average are told before any pair is refused.
 #include <gmock/gmock.h>
 
 #include <cmath>
@@ -105,6 +105,61 @@ TEST_F(FacePoseHostAndCameras, AStillSceneWithoutNoiseIsNotFrozen) {
   // It moves by a column in the left picture only, as where an arm comes to rest.
   take(true, false, 0, 32);
   EXPECT_TRUE(look().valid_());
+}
+
+TEST_F(FacePoseHostAndCameras, OneThatIsFrozenStaysSoWhileThePatientRestsUntilItsPictureChanges) {
+  for (const bool left_is_frozen : {true, false}) {
+    const std::string who = left_is_frozen ? "the left camera" : "the right camera";
+    take(true, true, 0, 100);
+    EXPECT_TRUE(look().valid_()) << who;
+    for (const int thing_at : {110, 120, 130, 130, 130, 130}) {
+      take(!left_is_frozen, left_is_frozen, 0, thing_at);
+      EXPECT_THAT(look().reason_(), testing::StartsWith(who + " is frozen")) << thing_at;
+    }
+    EXPECT_THAT(host_.status().reason, testing::StartsWith(who + " is frozen"));
+    // It wakes up. What it shows has moved since long ago, which proves nothing of the other one.
+    take(true, true, 0, 130);
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(look().valid_()) << who << ", " << i;
+    EXPECT_EQ(host_.status().reason, "");
+  }
+}
+
+TEST_F(FacePoseHostAndCameras, OneThatIsFrozenIsSeenByAFaceThatTakesASmallPartOfThePicture) {
+  for (const bool left_is_frozen : {true, false}) {
+    const int thing_at = left_is_frozen ? 128 : 144;
+    take(true, true, 0, thing_at);
+    EXPECT_TRUE(look().valid_());
+    take(!left_is_frozen, left_is_frozen, 0, thing_at + 1);
+    EXPECT_THAT(look().reason_(), testing::HasSubstr("camera is frozen"));
+  }
+}
+
+TEST_F(FacePoseHostAndCameras, OneThatIsFrozenIsSeenByAFaceThatMovesSlowly) {
+  take(true, true, 0, 128);
+  EXPECT_TRUE(look().valid_());
+  const auto fade_right = [&] {
+    for (std::size_t i = 0; i < right_.data_().size(); ++i) {
+      if (i % 256 > 124 && i % 256 < 132) right_.data_()[i] += 5;
+    }
+  };
+  fade_right();
+  EXPECT_TRUE(look().valid_());
+  fade_right();
+  EXPECT_TRUE(look().valid_());
+  fade_right();
+  EXPECT_THAT(look().reason_(), testing::StartsWith("the left camera is frozen"));
+}
+
+TEST_F(FacePoseHostAndCameras, WhatOneCameraAloneSeesAtTheRimOfItsPictureIsNoFrozenOne) {
+  for (const bool is_left : {true, false}) {
+    const int rim = is_left ? 0 : 192;
+    take(true, true, 0, rim + 8);
+    EXPECT_TRUE(look().valid_());
+    for (int thing_at = rim + 8; thing_at <= rim + 56; thing_at += 8) {
+      take(is_left, !is_left, 0, thing_at);
+      EXPECT_TRUE(look().valid_()) << thing_at;
+    }
+  }
 }
 
 TEST_F(FacePoseHostAndCameras, RowsThatDifferOnAverageAreToldAndNoPairIsRefusedForThem) {

@@ -18,6 +18,7 @@ namespace {
 using Eigen::Vector2d, Eigen::Vector3d;
 
 constexpr double kDisparityFloor = 0.01;  // [px] what interpolation between pixels leaves
+constexpr double kRelief = 4;             // standard deviations: more is no noise
 
 /// The plane of the last pair, which is where the next one starts: its disparity at pixel (0, 0)
 /// [px] and how it grows with the column and the row.
@@ -174,8 +175,26 @@ Expected<void> Surface::see_features(const Alignment& aligned, const StereoCamer
     }
     auto seen = feature_is_uncovered(name, located.at[i], own, aligned, camera, parameters_);
     if (!seen) return seen;
+    located.relief[i] = come_near(area, located.at[i], own);
   }
   return {};
+}
+
+/// Aligns the middle of a feature alone, where `own` is its surroundings. What lies before or
+/// behind those, as an eye in its socket or a lip below a nose, errs with the square of their size:
+/// three quarters of it is what the middle, of half the size, differs by. Answers how far that may
+/// be wrong [px]; 0 where noise explains the difference.
+double Surface::come_near(const FaceArea& area, const Vector2d& at, Alignment& own) {
+  const FaceArea middle{area.middle, 0.5 * area.half_width, 0.5 * area.half_height};
+  Alignment near = own;
+  if (!fit_.align_feature(middle, near)) return 0;
+  const double difference = near.surface.at(at) - own.surface.at(at);
+  const double variance =
+      near.surface.variance(at, near.covariance) + own.surface.variance(at, own.covariance);
+  if (!(difference * difference > kRelief * kRelief * variance)) return 0;
+  own = near;
+  own.surface.c[0] += difference / 3;
+  return std::abs(difference) / 3;
 }
 
 FacePose Surface::pose(const Alignment& aligned, const StereoCamera& camera,
@@ -188,8 +207,9 @@ FacePose Surface::pose(const Alignment& aligned, const StereoCamera& camera,
     const Alignment& there = is_plane ? aligned : located.own[i];
     const DisparitySurface tangent = there.surface.tangent(pixel);
     const double disparity = there.surface.at(pixel);
-    const double variance =
-        there.surface.variance(pixel, there.covariance) + kDisparityFloor * kDisparityFloor;
+    const double variance = there.surface.variance(pixel, there.covariance) +
+                            kDisparityFloor * kDisparityFloor +
+                            (is_plane ? 0 : located.relief[i] * located.relief[i]);
     const Vector3d point = camera.triangulate(pixel, {pixel.x() - disparity, pixel.y()});
     // By the column and the row of the landmark, which slides along the surface, and the disparity.
     const Vector3d by_disparity = -point / disparity;

@@ -27,7 +27,8 @@ class Surface final : public FacePoseEstimator {
     Features at;
     std::array<double, 3> sigma;
     std::array<Alignment, 3> own;
-    bool is_unsettled = false;  // another look may settle where they are
+    std::array<double, 3> relief{};  // [px] how well its disparity is known for what bulges there
+    bool is_unsettled = false;       // another look may settle where they are
     bool is_last_look = false;
   };
 
@@ -38,6 +39,7 @@ class Surface final : public FacePoseEstimator {
                           Alignment& aligned, Located& located);
   Expected<void> see_features(const Alignment& aligned, const StereoCamera& camera,
                               Located& located);
+  double come_near(const FaceArea& area, const Eigen::Vector2d& at, Alignment& own);
   Expected<void> find_again(const FacePoseInput& input, const Alignment& aligned, Located& located);
   FacePose pose(const Alignment& aligned, const StereoCamera& camera, const Located& located) const;
 

@@ -17,7 +17,7 @@ export interface Arrival {
 }
 
 export class Hub {
-  readonly store = new Store();
+  readonly store = new Store((text) => this.warn(text));
   topics = new Map<string, TopicInfo>();
   condition: Condition = 'connecting';
   text = '';
@@ -103,7 +103,8 @@ export class Hub {
       message: (topic, t, bytes) => {
         if (Number.isNaN(this.firstDataMs)) this.firstDataMs = performance.now() - this.sinceMs;
         ++this.received;
-        this.store.add(topic, t, bytes);
+        const isLive = this.source?.kind === 'live' && !this.playback;
+        this.store.add(topic, t, bytes, isLive ? performance.now() / 1000 : undefined);
         for (const call of this.arrivals) call({topic, t});
       },
       forget: (topic) => this.forget(topic),
@@ -111,10 +112,11 @@ export class Hub {
         this.playback = playback;
       },
       jumped: () => this.forgetAll(),
-      warning: (text) => {
-        this.warnings.push({t: this.store.newest, text});
-        if (this.warnings.length > 100) this.warnings.shift();
-      },
+      warning: (text) => this.warn(text),
     };
+  }
+  private warn(text: string) {
+    this.warnings.push({t: this.store.newest, text});
+    if (this.warnings.length > 100) this.warnings.shift();
   }
 }

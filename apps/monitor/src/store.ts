@@ -2,6 +2,7 @@
 // Remembers the messages of every topic that somebody looks at, as far back as the window reaches
 // and in bounded memory. Messages stay packed until somebody wants one.
 import type {Decode, Message} from './message/decoder';
+import {Newest} from './newest';
 
 export interface Entry {
   t: number;  // [s] when it was sent
@@ -10,6 +11,7 @@ export interface Entry {
 
 const kOverhead = 160;  // [byte] of an entry, beside its message
 const kUnpacked = 96;   // messages of a topic that stay unpacked
+const kAhead = 5;       // [s] what is stamped later is not kept, but for the last of it: it may hold for ever
 
 function isSame(a: Uint8Array, b: Uint8Array): boolean {
   return a.byteLength === b.byteLength && a.every((byte, i) => byte === b[i]);
@@ -53,9 +55,15 @@ export class TopicLog {
     while (count + 1 < this.entries.length && this.entries[count + 1]!.t <= t) ++count;
     this.drop(count);
   }
-  drop(count: number) {
+  drop(count: number) { this.remove(0, count); }
+  /// Forgets what was sent after `t`, but for the last message where that is `keepsLast`.
+  forgetAfter(t: number, keepsLast: boolean) {
+    const from = this.indexAt(t) + 1;
+    this.remove(from, this.entries.length - from - (keepsLast ? 1 : 0));
+  }
+  private remove(from: number, count: number) {
     if (count <= 0) return;
-    for (const entry of this.entries.splice(0, count)) {
+    for (const entry of this.entries.splice(from, count)) {
       this.bytes -= entry.bytes.byteLength + kOverhead;
       this.unpacked.delete(entry);
     }
@@ -103,17 +111,26 @@ export class Store {
   readonly topics = new Map<string, TopicLog>();
   windowS = 60;
   maxBytes = 192e6;
-  newest = NaN;  // [s] of all messages
+  private readonly clock = new Newest();
   private sinceTrim = 0;
+  private toldAhead = new Set<string>();
+
+  /// `tell` is told what is not believed of the stamps.
+  constructor(private readonly tell: (text: string) => void = () => {}) {}
+
+  /// [s] of all messages that are believed.
+  get newest(): number { return this.clock.t; }
 
   log(topic: string): TopicLog {
     let log = this.topics.get(topic);
     if (!log) this.topics.set(topic, (log = new TopicLog(topic)));
     return log;
   }
-  add(topic: string, t: number, bytes: Uint8Array) {
+  /// `now`: when it came, by a clock that does not step [s]; without it the stamp is right, as that of a recording.
+  add(topic: string, t: number, bytes: Uint8Array, now?: number) {
     this.log(topic).add({t, bytes});
-    if (!(t <= this.newest)) this.newest = t;
+    if (now === undefined) this.clock.take(t);
+    else this.hear(topic, t, now);
     if (++this.sinceTrim >= 500) this.trim();
   }
   bytes(): number {
@@ -124,7 +141,10 @@ export class Store {
   /// What is too old goes, and when that is not enough the oldest of what takes most.
   trim() {
     this.sinceTrim = 0;
-    for (const log of this.topics.values()) log.forgetBefore(this.newest - this.windowS);
+    for (const log of this.topics.values()) {
+      log.forgetBefore(this.newest - this.windowS);
+      log.forgetAfter(this.newest + kAhead, true);
+    }
     while (this.bytes() > this.maxBytes) {
       const largest = [...this.topics.values()].reduce((a, b) => (a.bytes >= b.bytes ? a : b));
       if (largest.length <= 1) break;
@@ -141,6 +161,22 @@ export class Store {
   }
   clear() {
     for (const log of this.topics.values()) log.clear();
-    this.newest = NaN;
+    this.clock.clear();
+    this.toldAhead.clear();
+  }
+
+  private hear(topic: string, t: number, now: number) {
+    const before = this.newest;
+    const verdict = this.clock.hear(t, now);
+    const apart = Math.abs(t - before).toFixed(0);
+    if (verdict === 'ahead' && !this.toldAhead.has(topic) && this.toldAhead.size < 100) {
+      this.toldAhead.add(topic);
+      this.tell(`${topic} has messages that are stamped ${apart} s ahead of all others: they are not shown`);
+    } else if (verdict === 'forward') {
+      this.tell(`the stamps of most messages went ahead by ${apart} s`);
+    } else if (verdict === 'back') {
+      for (const log of this.topics.values()) log.forgetAfter(this.newest, false);
+      this.tell(`the stamps of most messages went back by ${apart} s: what was stamped later is forgotten`);
+    }
   }
 }

@@ -60,6 +60,52 @@ test('the store forgets what is older than its window, but for what still holds'
   assert.equal(store.log('/often').first!.t, 39);
   assert.equal(store.log('/often').indexAt(98.5), 59);
 });
+/// A topic that is written `hz` times a second for `seconds`, by a clock that is `ahead`; the page's goes from `now` on.
+function write(store: Store, topic: string, now: number, seconds: number, hz: number, ahead: number) {
+  for (let i = 0; i < seconds * hz; ++i) store.add(topic, 1e9 + ahead + now + i / hz, new Uint8Array([i & 255, i >> 8]), now + i / hz);
+}
+test('a message that is stamped an hour ahead takes nothing from the others, and is told of once', () => {
+  const told: string[] = [], store = new Store((text) => told.push(text));
+  write(store, '/arm', 0, 10, 100, 0);
+  for (let i = 0; i < 5; ++i) store.add('/tf', 1e9 + 3600 + 10 + i, new Uint8Array([i]), 10);
+  write(store, '/arm', 10, 10, 100, 0);
+  store.trim();
+  assert.ok(Math.abs(store.newest - (1e9 + 20)) < 0.1, `${store.newest - 1e9}`);
+  assert.equal(store.log('/arm').length, 2000);
+  assert.equal(store.log('/tf').length, 1, 'the last one may hold for ever');
+  assert.deepEqual(told, ['/tf has messages that are stamped 3600 s ahead of all others: they are not shown']);
+});
+test('one whose clock is ahead and who comes first is not believed once most go by another clock', () => {
+  const store = new Store();
+  for (let now = 0; now < 20; ++now) {
+    store.add('/stranger', 1e9 + 3600 + now, new Uint8Array([now]), now);
+    if (now >= 5) write(store, '/arm', now, 1, 50, 0);
+  }
+  assert.ok(Math.abs(store.newest - (1e9 + 20)) < 0.1, `${store.newest - 1e9}`);
+  assert.equal(store.log('/arm').length, 750);
+});
+test('a clock that steps back is followed within seconds, and what was stamped later is forgotten', () => {
+  const told: string[] = [], store = new Store((text) => told.push(text));
+  write(store, '/arm', 0, 10, 100, 0);
+  write(store, '/arm', 10, 6, 100, -600);
+  assert.ok(Math.abs(store.newest - (1e9 + 16 - 600)) < 0.1, `${store.newest - 1e9}`);
+  assert.ok(store.log('/arm').last!.t <= store.newest);
+  assert.equal(told.length, 1, told.join());
+});
+test('what is latched is no clock: what lives after it is shown at once, and it does not lead back when it is told again', () => {
+  const store = new Store();
+  for (let i = 0; i < 100; ++i) store.add('/rosout', 1e9 - 3600 + i / 50, new Uint8Array([i]), 0);
+  store.add('/arm', 1e9, new Uint8Array([1]), 0.1);
+  assert.equal(store.newest, 1e9);
+  for (let now = 1; now < 60; ++now) store.add('/map', 1e9 - 3600, new Uint8Array([now]), now);
+  assert.equal(store.newest, 1e9);
+});
+test('a simulation that pauses, or is faster than the clock on the wall, is followed', () => {
+  const store = new Store();
+  write(store, '/arm', 0, 10, 100, 0);
+  for (let i = 0; i < 1000; ++i) store.add('/arm', 1e9 + 10 + i / 10, new Uint8Array([i & 255, i >> 8]), 100 + i / 100);
+  assert.ok(Math.abs(store.newest - (1e9 + 110)) < 0.2, `${store.newest - 1e9}`);
+});
 test('the store stays within its memory, and drops from what takes most', () => {
   const store = new Store();
   store.maxBytes = 100_000;

@@ -11,8 +11,9 @@ constexpr double kShortestRamp_s = 0.02, kLongestRamp_s = 10, kLonger = 1.25;
 constexpr double kDelay_s = 0.01;  // between two places where a brake may begin
 constexpr double kPiece_s = 0.005;
 constexpr double kSamePlace_s = 1e-6;
-constexpr int kSamples = 32;        // of a ramp, before its extrema are looked at
-constexpr double kRounding = 1e-6;  // of limits
+constexpr int kSamples = 32;            // of a ramp, before its extrema are looked at
+constexpr double kRounding = 1e-6;      // of limits
+constexpr double kPlanRounding = 1e-9;  // of what is planned
 
 /// How time runs along a planned motion: a place on it [s], and how that changes.
 struct Law {
@@ -57,10 +58,27 @@ Law ramp(Law::Shape shape, double from_s, double lasts_s) {
   return {.shape = shape, .from_s = from_s, .gone_s = lasts_s / 2, .lasts_s = lasts_s};
 }
 
-bool within(const JointState& state, const MotionLimits& limits) {
-  const double most = 1 + kRounding;
-  return (state.v.cwiseAbs().array() <= most * limits.max_velocity.array()).all() &&
-         (state.a.cwiseAbs().array() <= most * limits.max_acceleration.array()).all();
+/// The limits, or what the planned motion itself needs where that is more: the check of a
+/// trajectory lets it use a little more, and no ramp from there keeps the limits alone.
+MotionLimits allowed(const Trajectory& trajectory, const MotionLimits& limits) {
+  MotionLimits most = limits;
+  most.max_velocity *= 1 + kRounding;
+  most.max_acceleration *= 1 + kRounding;
+  for (int k = 0; k < trajectory.piece_count(); ++k) {
+    const auto knot = trajectory.knots.begin() + k;
+    for (int j = 0; j < trajectory.dof; ++j) {
+      const QuinticPeaks peak = peaks(trajectory.view().piece(k, j), *(knot + 1) - *knot);
+      most.max_velocity[j] = std::max(most.max_velocity[j], (1 + kPlanRounding) * peak.velocity);
+      most.max_acceleration[j] =
+          std::max(most.max_acceleration[j], (1 + kPlanRounding) * peak.acceleration);
+    }
+  }
+  return most;
+}
+
+bool within(const JointState& state, const MotionLimits& most) {
+  return (state.v.cwiseAbs().array() <= most.max_velocity.array()).all() &&
+         (state.a.cwiseAbs().array() <= most.max_acceleration.array()).all();
 }
 
 Trajectory pieces_of(const Trajectory& trajectory, const Law& law) {
@@ -84,24 +102,24 @@ Trajectory pieces_of(const Trajectory& trajectory, const Law& law) {
   return driven;
 }
 
-/// What the law makes of a motion, if that keeps the limits: by samples first, then by its extrema.
+/// What the law makes of a motion, if that is allowed: by samples first, then by its extrema.
 std::optional<Trajectory> driven(const Trajectory& trajectory, const Law& law,
-                                 const MotionLimits& limits) {
+                                 const MotionLimits& most) {
   for (int i = 0; i <= kSamples; ++i) {
-    if (!within(law.at(trajectory, law.lasts_s * i / kSamples), limits)) return std::nullopt;
+    if (!within(law.at(trajectory, law.lasts_s * i / kSamples), most)) return std::nullopt;
   }
   Trajectory made = pieces_of(trajectory, law);
-  const LimitUse use = limit_use(made, limits.max_velocity, limits.max_acceleration);
-  if (std::max(use.velocity, use.acceleration) > 1 + kRounding) return std::nullopt;
+  const LimitUse use = limit_use(made, most.max_velocity, most.max_acceleration);
+  if (std::max(use.velocity, use.acceleration) > 1) return std::nullopt;
   return made;
 }
 
 std::optional<Retimed> brake_at(const Trajectory& trajectory, double at_s, double rest_s,
-                                const MotionLimits& limits) {
+                                const MotionLimits& most) {
   for (double lasts = kShortestRamp_s; lasts <= kLongestRamp_s; lasts *= kLonger) {
     const Law law = ramp(Law::Shape::down, at_s, lasts);
     if (law.end_s() >= rest_s) return std::nullopt;
-    if (auto made = driven(trajectory, law, limits)) {
+    if (auto made = driven(trajectory, law, most)) {
       return Retimed{std::move(*made), lasts, law.end_s()};
     }
   }
@@ -185,8 +203,9 @@ Retimed brake(const Trajectory& trajectory, double from_s, const MotionLimits& l
   from_s = std::clamp(from_s, 0.0, trajectory.duration_s());
   const double rest_s =
       at_rest(state_at(trajectory.view(), from_s)) ? from_s : next_rest_s(trajectory, from_s);
+  const MotionLimits most = allowed(trajectory, limits);
   for (double at_s = from_s; at_s < rest_s; at_s += kDelay_s) {
-    auto braked = brake_at(trajectory, at_s, rest_s, limits);
+    auto braked = brake_at(trajectory, at_s, rest_s, most);
     if (!braked) continue;
     if (at_s > from_s) {
       braked->trajectory = followed_by(part(trajectory, from_s, at_s), braked->trajectory);
@@ -201,16 +220,17 @@ Retimed speed_up(const Trajectory& trajectory, double from_s, double to_s,
   from_s = std::clamp(from_s, 0.0, trajectory.duration_s());
   to_s = std::min(to_s, trajectory.duration_s());
   if (to_s <= from_s) return {part(trajectory, from_s, from_s), 0, from_s};
+  const MotionLimits most = allowed(trajectory, limits);
   for (double lasts = kShortestRamp_s; lasts <= kLongestRamp_s; lasts *= kLonger) {
     const Law law = ramp(Law::Shape::up, from_s, lasts);
     if (law.end_s() >= to_s) break;
-    auto made = driven(trajectory, law, limits);
+    auto made = driven(trajectory, law, most);
     if (!made) continue;
     return {followed_by(std::move(*made), part(trajectory, law.end_s(), to_s)), lasts, law.end_s()};
   }
   for (Law law{Law::Shape::rest_to_rest, from_s, to_s - from_s, std::max(to_s - from_s, kPiece_s)};;
        law.lasts_s *= kLonger) {
-    if (auto made = driven(trajectory, law, limits)) {
+    if (auto made = driven(trajectory, law, most)) {
       return {std::move(*made), law.lasts_s, to_s};
     }
   }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <tuple>
 
 #include "armature/robot/trajectories/quintic_spline.hpp"
 
@@ -125,6 +126,35 @@ TEST_F(RetimingTest, ABrakedMotionComesToRestOnItsPathWithinLimitsWhereverItIsBr
     EXPECT_LE(stop.place_s, next_rest_s(whole, from) + 1e-9) << "it does not go on past a stop";
     for (double t = 0; t <= stop.trajectory.duration_s(); t += 0.03) {
       EXPECT_LT(off_path(whole, at(stop.trajectory, t).q), 1e-6);
+    }
+  }
+}
+
+/// The check of a trajectory accepts up to a thousandth more than a limit.
+TEST_F(RetimingTest, ACruiseThatUsesALittleMoreThanALimitIsBrakedAndGoneOnWithAtOnce) {
+  constexpr double kRise_s = 2, kCruise_s = 20;
+  for (const double use : {1.0, 1.000002, 1.0005, 1.000999}) {
+    const double v = use * limits_.max_velocity[0], rise = v * kRise_s / 2, cruise = v * kCruise_s;
+    Trajectory whole{.goal_id = 7,
+                     .dof = kJoints,
+                     .start = kStart,
+                     .knots = {0, kRise_s, kRise_s + kCruise_s, 2 * kRise_s + kCruise_s},
+                     .pieces = {}};
+    for (const auto& [from, to, lasts_s] :
+         {std::tuple{Quintic::End{0, 0, 0}, Quintic::End{rise, v, 0}, kRise_s},
+          std::tuple{Quintic::End{rise, v, 0}, Quintic::End{rise + cruise, v, 0}, kCruise_s},
+          std::tuple{Quintic::End{rise + cruise, v, 0}, Quintic::End{2 * rise + cruise, 0, 0},
+                     kRise_s}}) {
+      whole.pieces.insert(whole.pieces.end(), kJoints, Quintic::between(from, to, lasts_s));
+    }
+    const Retimed stop = brake(whole, 5, limits_);
+    EXPECT_LT(stop.trajectory.duration_s(), 1) << use;
+    EXPECT_LT(stop.place_s, 5.5) << use;
+    const Retimed on = speed_up(whole, 5, whole.duration_s(), limits_);
+    EXPECT_LT(on.ramp_s, 1) << use;
+    for (const Trajectory* driven : {&stop.trajectory, &on.trajectory}) {
+      const LimitUse most = limit_use(*driven, limits_.max_velocity, limits_.max_acceleration);
+      EXPECT_LE(std::max(most.velocity, most.acceleration), use + 2e-6);
     }
   }
 }

@@ -28,8 +28,8 @@ class LineExchange {
   /// Forgets the other end, what it said and what it was to be told, and never hears it again.
   void turn_away();
 
-  /// `line` is not empty, and has no line end.
-  void send(std::string line) { unacknowledged_.push_back(std::move(line)); }
+  /// A line end in `line` arrives as a blank, and so does an empty line.
+  void send(std::string line);
   /// How many lines wait to be acknowledged.
   std::size_t waiting() const { return unacknowledged_.size(); }
   std::optional<std::string> receive();

@@ -67,6 +67,19 @@ TEST(LineExchange, TakesNoMessageThatIsNone) {
   EXPECT_FALSE(main.receive());
 }
 
+TEST(LineExchange, GoesOnAfterALineWithLineEndsAndAnEmptyOne) {
+  LineExchange desk{"desk"}, main{"main"};
+  desk.send("stop face: step failed:\nno face\n");
+  desk.send("");
+  EXPECT_TRUE(main.take(desk.message(), Time{1}));
+  EXPECT_TRUE(desk.take(main.message(), Time{2})) << "as many lines were taken as were sent";
+  EXPECT_EQ(desk.waiting(), 0U);
+  desk.send("end");
+  EXPECT_TRUE(main.take(desk.message(), Time{3}));
+  EXPECT_EQ(received(main),
+            (std::vector<std::string>{"stop face: step failed: no face ", " ", "end"}));
+}
+
 TEST(LineExchange, CarriesEveryLineOnceAndInOrderOverAWayThatLosesDoublesAndReorders) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE(seed);

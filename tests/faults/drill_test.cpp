@@ -171,5 +171,16 @@ TEST(Drill, AFaultThatIsNoneIsNamed) {
   EXPECT_EQ(result.err, "armature: no fault 'interupt'; did you mean 'interrupt'?\n");
 }
 
+TEST(Drill, FaultsOfWhichTheDeploymentCanMeetNoneAreNamedAndDoNotPass) {
+  const CommandResult result = run_command(
+      drill("tests/faults/runaway.yaml", {"--faults", "perception_killed,monitor_throws"}),
+      kWithFaultPlugins, kWithin);
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(result.err,
+            "armature: deployment 'runaway' cannot meet these faults: perception_killed, "
+            "monitor_throws\n");
+}
+
 }  // namespace
 }  // namespace armature::test

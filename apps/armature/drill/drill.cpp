@@ -2,6 +2,7 @@
 #include "drill/drill.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <atomic>
@@ -76,6 +77,22 @@ std::vector<Planned> plan(const DrilledDeployment& deployment, const DrillOption
   }
   if (options.brief) std::ranges::shuffle(planned, random);
   return planned;
+}
+
+/// Names what was asked for and does not apply. A drill that fires nothing proves nothing.
+void tell_inapplicable(const std::string& deployment, const std::vector<std::string>& wanted,
+                       const std::vector<Planned>& planned) {
+  std::vector<std::string> inapplicable;
+  for (const std::string& name : wanted) {
+    const bool applies =
+        std::ranges::any_of(planned, [&](const Planned& one) { return one.fault.name == name; });
+    if (!applies) inapplicable.push_back(name);
+  }
+  if (inapplicable.empty()) return;
+  const std::string text = fmt::format("deployment '{}' cannot meet these faults: {}", deployment,
+                                       fmt::join(inapplicable, ", "));
+  if (planned.empty()) throw InvalidChoice(text);
+  fmt::print(stderr, "armature: {}\n", text);
 }
 
 /// Fires what is planned, some at a time, and shows each result as it comes. A signal interrupts
@@ -177,9 +194,11 @@ int run_drill(const DrillOptions& options) {
   const PluginRegistry plugins;
   const drill::DrilledDeployment deployment = drill::read_drilled(options.source, plugins);
   const std::uint64_t seed = options.seed.value_or(std::random_device{}());
+  auto planned = drill::plan(deployment, options, seed);
+  drill::tell_inapplicable(deployment.name, options.faults, planned);
   if (!options.json) print_out("{}: --seed {}\n{}\n", deployment.name, seed, drill::table_head());
   std::fflush(standard_output());
-  drill::Drill drill{options, deployment, drill::plan(deployment, options, seed)};
+  drill::Drill drill{options, deployment, std::move(planned)};
   end_signals::say({.json = options.json});
   end_signals::stop_in_order();
   const auto results = drill.run();

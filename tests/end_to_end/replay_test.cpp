@@ -587,6 +587,17 @@ TEST_F(Replay, ARecordingThatIsThereStopsARunBeforeItBegins) {
   EXPECT_EQ(fs::file_size(file()), 11U);
 }
 
+TEST_F(Replay, ARecordingThatIsThereStopsAProcessThatTheMainOneDoesNotLookAfter) {
+  const std::string part = file("run.vision.mcap");
+  std::ofstream{part} << "yesterday's";
+  const CommandResult run =
+      record({"--process", "vision", "--set", "components.landmarks.process=vision", "--set",
+              "components.face.process=vision"});
+  EXPECT_EQ(run.exit_code, 3);
+  EXPECT_THAT(run.err, HasSubstr("'" + part + "' is there already"));
+  EXPECT_EQ(fs::file_size(part), 11U);
+}
+
 TEST_F(Replay, AWrongTopicIsFoundBeforeTheRun) {
   const CommandResult run = record({"--set", "record.topics=[/dental_lamp/arm/measured]"});
   EXPECT_EQ(run.exit_code, 3);

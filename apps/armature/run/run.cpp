@@ -221,6 +221,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
 
 int run_other(const RunOptions& options, const Process& process, Deployment& deployment,
               PluginRegistry& plugins, Console& console, ChildWatch& watch, WatchedEnd& end) {
+  check_recordings(deployment.config(), process.name, process.origin.start);
   deployment.connect(plugins, process.domain, process.origin.run);
   begin_recording(deployment, process.name, process.origin.start);
   watch.on_clock([&](Duration offset) { deployment.follow_clock(offset); });

@@ -88,7 +88,10 @@ void check_recordings(const DeploymentConfig& config, const std::string& process
   if (!config.record || config.record->around_faults) return;
   config::Problems problems;
   for (const std::string& name : config.processes()) {
-    if (config.host_of(name) != config.host_of(process)) continue;
+    // Where the main process has looked already, other processes may have begun theirs.
+    const bool looked_for =
+        process == kMainProcess ? config.host_of(name) == kMainHost : name == process;
+    if (!looked_for) continue;
     const std::filesystem::path file = config.record->file_of(name, named_after(config, start));
     std::error_code none;
     if (std::filesystem::file_size(file, none) == 0 || none) continue;

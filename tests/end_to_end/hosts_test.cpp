@@ -108,6 +108,21 @@ TEST_F(Hosts, AreNotAccusedWhenTheRunIsInterruptedBeforeTheyCame) {
   EXPECT_THAT(ended.err, Not(HasSubstr("has not ended")));
 }
 
+TEST_F(Hosts, ThatDidNotComeLeaveNoRecordingInTheWayOfTheNextStart) {
+  namespace fs = std::filesystem;
+  const fs::path file =
+      fs::temp_directory_path() / ("armature-hosts-" + std::to_string(getpid()) + ".mcap");
+  auto settings = pulse("1");
+  settings.push_back("record.file=" + file.string());
+  const auto main = start_main(settings);
+  ASSERT_TRUE(main->wait_for_err("waiting for host 'desk'", kTimeout)) << main->err();
+  EXPECT_TRUE(fs::exists(file));
+  main->signal(SIGINT);
+  EXPECT_EQ(main->finish(kTimeout).exit_code, 1) << main->err();
+  EXPECT_FALSE(fs::exists(file));
+  fs::remove(file);
+}
+
 TEST_F(Hosts, TheOtherOneMayBeThereFirst) {
   const auto desk = start_desk(pulse("0.5"));
   ASSERT_TRUE(desk->wait_for_err("'desk' waits for the main process of 'pulse'", kTimeout));

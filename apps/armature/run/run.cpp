@@ -190,7 +190,12 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   tell_network(process.network, console);
   expect_hosts(children, options, deployment, process.origin);
   MainWatch watch{console, children, deployment};
-  deployment.run(watch);
+  try {
+    deployment.run(watch);
+  } catch (...) {
+    if (recording && !watch.started()) remove_recordings(*recording, deployment.config());
+    throw;
+  }
   RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
   // Somebody has looked at it for long enough: that is how such a run ends.
   if (options.keep_running && deployment.scenario_over() && ending.stopped == "interrupted") {

@@ -121,6 +121,13 @@ std::optional<std::filesystem::path> begin_recording(Deployment& deployment,
   return file;
 }
 
+void remove_recordings(const std::filesystem::path& recording, const DeploymentConfig& config) {
+  for (const std::string& name : config.processes()) {
+    if (config.host_of(name) != kMainHost) continue;
+    remove_older(name == kMainProcess ? recording : RecordConfig::part_of(recording, name));
+  }
+}
+
 std::filesystem::path page_file(const std::filesystem::path& folder) {
   return folder / "report.html";
 }

@@ -23,6 +23,9 @@ void check_recordings(const DeploymentConfig& config, const std::string& process
 std::optional<std::filesystem::path> begin_recording(Deployment& deployment,
                                                      const std::string& process, Time start);
 
+/// Leaves none of a run that has not begun, on this host: it would stop the next start.
+void remove_recordings(const std::filesystem::path& recording, const DeploymentConfig& config);
+
 /// What a run that does not record itself records for its page, in the folder of a report.
 inline constexpr const char* kRecordingForPage = "run.mcap";
 

@@ -52,6 +52,8 @@ class MainWatch final : public ProcessWatch {
   bool may_end(const std::vector<std::string>& moving, Duration left) override;
   void ending() override;
 
+  /// True once the run has begun, in all of its processes.
+  bool started() const { return started_; }
   /// Ends the processes that are left. What went wrong in any of them.
   std::vector<std::string> end_all();
 

@@ -111,5 +111,24 @@ TEST_F(HeaderTags, APluginOfOtherHeadersIsRefusedWithBothTags) {
                             "], this is [" ARMATURE_HEADERS_ik "]; rebuild the plugin\n");
 }
 
+TEST(AbiOfAPlugin, SettingsThatChangeTheLayoutOfSharedObjectsDoNotCompile) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "plugin.cpp";
+  std::ofstream{file} << "#include \"armature/runtime/plugins/abi.hpp\"\n";
+  const auto said_with = [&](const std::string& flag) {
+    return run_command({CXX_COMPILER, "-std=c++20", "-fsyntax-only", flag,
+                        "-I" + source_file("framework"), "-I" ARMATURE_BINARY_DIR "/generated",
+                        "-DARMATURE_EXPORT=", file})
+        .err;
+  };
+  EXPECT_EQ(said_with("-O2"), "");
+  EXPECT_EQ(said_with("-DEIGEN_DEFAULT_DENSE_INDEX_TYPE=long"), "");
+  for (const char* flag : {"-DEIGEN_DEFAULT_DENSE_INDEX_TYPE=int", "-DEIGEN_DEFAULT_TO_ROW_MAJOR",
+                           "-fpack-struct=4"}) {
+    EXPECT_NE(said_with(flag).find("error: "), std::string::npos) << flag;
+    EXPECT_NE(said_with(flag).find("Armature's "), std::string::npos) << flag;
+  }
+}
+
 }  // namespace
 }  // namespace armature::test

@@ -3,6 +3,8 @@
 
 #include <bits/c++config.h>
 
+#include <cstddef>
+
 #include "armature/values/header_tags.hpp"
 
 // The ABI tag: what must be equal on both sides before a plugin may share objects with the
@@ -36,6 +38,24 @@
 #else
 #define ARMATURE_ABI_SANITIZER "none"
 #endif
+
+// Settings that give shared objects another layout, and that nobody needs, do not compile.
+#ifdef EIGEN_DEFAULT_TO_ROW_MAJOR
+#error "Armature's matrices are stored by columns: leave EIGEN_DEFAULT_TO_ROW_MAJOR out"
+#endif
+#ifdef EIGEN_DEFAULT_DENSE_INDEX_TYPE
+static_assert(sizeof(EIGEN_DEFAULT_DENSE_INDEX_TYPE) == sizeof(std::ptrdiff_t),
+              "Armature's matrices have sizes of std::ptrdiff_t: leave "
+              "EIGEN_DEFAULT_DENSE_INDEX_TYPE out");
+#endif
+namespace armature::abi {
+struct Padded {
+  char first;
+  double second;
+};
+static_assert(offsetof(Padded, second) == alignof(double),
+              "Armature's structs are padded as usual: leave -fpack-struct out");
+}  // namespace armature::abi
 
 #define ARMATURE_ABI_TAG \
   "compiler abi " ARMATURE_ABI_TEXT(__GXX_ABI_VERSION) ", libstdc++ " ARMATURE_ABI_TEXT(           \

@@ -18,28 +18,47 @@ struct Ends {
   double skull, skin;
 };
 
+/// Soft tissue behind air, in one piece along a line [m]: a scalp. A marker's edges show less.
+constexpr double kScalp = 0.002;
+constexpr double kSkin = 0.5 * kAirHu;
+constexpr double kFarthest = 0.3;  // [m]
+
+/// Whether the line goes on through soft tissue behind the air at `from_t` [m]: that was a cavity.
+bool tissue_follows(const Volume& volume, const Vector3d& from, const Vector3d& direction,
+                    double bone_from, double from_t) {
+  const double step = 0.25 * volume.geometry.spacing.minCoeff();
+  double soft = 0;
+  for (double t = from_t; t < kFarthest; t += step) {
+    const Vector3d point = from + t * direction;
+    if (!volume.geometry.contains(point)) return false;
+    const double value = hounsfield_at(volume, point);
+    soft = value > kSkin && value < 0.5 * bone_from ? soft + step : 0;
+    if (soft > kScalp) return true;
+  }
+  return false;
+}
+
 std::optional<Ends> ends_along(const Volume& volume, const Vector3d& from,
                                const Vector3d& direction, double bone_from) {
-  constexpr double kSkin = 0.5 * kAirHu;
-  constexpr double kFarthest = 0.3;  // [m]
   const double step = 0.25 * volume.geometry.spacing.minCoeff();
-  std::optional<double> skull, skin;
+  std::optional<double> skull;
   bool bone_is_over = false;
   double before = hounsfield_at(volume, from);
   for (double t = step; t < kFarthest; t += step) {
-    const double value = hounsfield_at(volume, from + t * direction);
+    const Vector3d point = from + t * direction;
+    if (!volume.geometry.contains(point)) return std::nullopt;  // the scan ends within the head
+    const double value = hounsfield_at(volume, point);
     const auto falls_below = [&](double level) { return before > level && value <= level; };
     const auto place = [&](double level) { return t - step * (level - value) / (before - value); };
     if (falls_below(bone_from) && !bone_is_over) skull = place(bone_from);
     if (skull && value < 0.5 * bone_from) bone_is_over = true;  // what is as dense yet is a marker
     if (skull && falls_below(kSkin)) {
-      skin = place(kSkin);
-      break;
+      if (tissue_follows(volume, from, direction, bone_from, t)) return std::nullopt;
+      return Ends{*skull, place(kSkin)};
     }
     before = value;
   }
-  if (!skull || !skin) return std::nullopt;
-  return Ends{*skull, *skin};
+  return std::nullopt;
 }
 
 /// Of the plane that is nearest to points.

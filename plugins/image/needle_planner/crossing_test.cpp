@@ -38,10 +38,51 @@ TEST(Crossings, OfALineOffTheMiddleMeetTheSkullAslant) {
 
 TEST(Crossings, EndAtTheSkullAlsoUnderAMarker) {
   SmallHead with_marker;
-  with_marker.with(ball({0, 0, kSmallSkin + 0.0025}, 0.002, 2500));
+  with_marker.with(ball({0, 0, kSmallSkin + 0.002}, 0.0015, 2500));
   const auto crossing = crossing_of(with_marker.scan(), {0, 0, 0}, {0, 0, 1}, 600);
   ASSERT_TRUE(crossing);
   EXPECT_NEAR(crossing->skull.z(), kSmallSkull, 0.0006);
+}
+
+/// A scalp, and a skull that is thick above and holds the ball of air there.
+SmallHead with_air_cell(double radius) {
+  SmallHead head;
+  head.solids[2] = ball({0, 0, -0.007}, 0.03, 35);
+  return head.with(ball({0, 0, 0.032}, radius, kAirHu));
+}
+
+TEST(Crossings, AreNoneThroughAnAirCellOfTheSkull) {
+  EXPECT_TRUE(crossing_of(with_air_cell(0.0005).scan(), {0, 0, 0}, {0, 0, 1}, 600));
+  const Volume head = with_air_cell(0.004).scan();
+  EXPECT_FALSE(crossing_of(head, {0, 0, 0}, {0, 0, 1}, 600));
+  const Vector3d aside = Vector3d{0.7, 0, 1}.normalized();
+  const auto beside = crossing_of(head, {0, 0, 0}, aside, 600);
+  ASSERT_TRUE(beside);
+  EXPECT_NEAR(beside->skin.norm(), kSmallSkin, 0.0005);
+}
+
+TEST(Crossings, EndAtTheSkinUnderAMarkerThatAirSeparatesFromIt) {
+  SmallHead marked;
+  marked.with(ball({0, 0, kSmallSkin + 0.0035}, 0.0015, 2500));
+  const auto crossing = crossing_of(marked.scan(), {0, 0, 0}, {0, 0, 1}, 600);
+  ASSERT_TRUE(crossing);
+  EXPECT_NEAR(crossing->skin.z(), kSmallSkin, 0.0006);
+}
+
+TEST(Crossings, AreNoneWhereTheScanEndsWithinTheHead) {
+  VolumeGeometry cut{.size = {101, 101, 84}};  // its last slice is 33 mm above the middle
+  cut.origin = Vector3d::Constant(-0.05);
+  const Volume head = scanned(SmallHead{}.solids, cut, {.noise_hu = 10, .seed = 4});
+  for (double up = 0; up < 1.5; up += 0.05) {
+    const Vector3d direction{std::cos(up), 0, std::sin(up)};
+    const auto crossing = crossing_of(head, {0, 0, 0}, direction, 600);
+    if (kSmallSkin * direction.z() > 0.033) {
+      EXPECT_FALSE(crossing) << up;
+    } else if (up < 0.6) {
+      ASSERT_TRUE(crossing) << up;
+      EXPECT_NEAR(crossing->skin.norm(), kSmallSkin, 0.0005) << up;
+    }
+  }
 }
 
 TEST(Crossings, WithoutASkullAreNone) {

@@ -15,6 +15,7 @@ namespace armature::image::needle_planner {
 namespace {
 
 constexpr double kDensest = 32767;
+constexpr double kBeside = 0.01;  // [m] from a lesion it is told at most, beyond its radius
 
 std::size_t voxels_of_ball(double diameter, const VolumeGeometry& geometry) {
   const double ball = std::numbers::pi / 6 * std::pow(diameter, 3);
@@ -47,6 +48,11 @@ Volume smoothed(const Volume& volume) {
     return static_cast<std::int16_t>(std::lround(sum / 27.0));
   });
   return result;
+}
+
+/// [m] Of the ball of its volume.
+double radius_of(const Lesion& lesion) {
+  return std::cbrt(lesion.volume / (4.0 / 3 * std::numbers::pi));
 }
 
 std::string in_mm(const Eigen::Vector3d& point) {
@@ -101,8 +107,15 @@ Expected<Lesion> find_lesion(const Volume& volume, const Parameters& parameters)
   }
   if (parameters.lesion_near.empty()) return lesions.front();
   const Eigen::Vector3d near = Eigen::Vector3d::Map(parameters.lesion_near.data());
-  return *std::ranges::min_element(
-      lesions, {}, [&](const Lesion& lesion) { return (lesion.centre - near).norm(); });
+  const auto distance = [&](const Lesion& lesion) { return (lesion.centre - near).norm(); };
+  const Lesion& nearest = *std::ranges::min_element(lesions, {}, distance);
+  if (distance(nearest) > radius_of(nearest) + kBeside) {
+    return refuse(
+        fmt::format("no lesion was found at lesion_near_mm: the nearest one, at {}, is {:.0f} mm "
+                    "away; the one that is meant may touch a vessel or bone",
+                    in_mm(nearest.centre), 1e3 * distance(nearest)));
+  }
+  return nearest;
 }
 
 std::vector<ForbiddenZone> find_vessels(const Volume& volume, const Parameters& parameters) {

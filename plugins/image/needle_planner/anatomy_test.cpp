@@ -38,6 +38,16 @@ TEST(Lesions, ThatAreNotThereOrSeveralAreRefused) {
   EXPECT_LT((chosen->centre - Vector3d{0.012, 0.003, 0.010}).norm(), 0.0002);
 }
 
+TEST(Lesions, FarFromWhereOneIsMeantAreNotTaken) {
+  SmallHead two;
+  two.with(lesion_at({-0.015, 0, 0})).with(lesion_at({0.012, 0.003, 0.010}));
+  const Volume scan = two.scan();
+  EXPECT_TRUE(find_lesion(scan, {.lesion_near = {-0.029, 0, 0}}));
+  EXPECT_EQ(find_lesion(scan, {.lesion_near = {-0.015, 0, -0.020}}).error().text,
+            "no lesion was found at lesion_near_mm: the nearest one, at (-15, -0, 0) mm, is 20 mm "
+            "away; the one that is meant may touch a vessel or bone");
+}
+
 TEST(Lesions, AVesselAloneIsNone) {
   SmallHead head;
   head.with(vessel_along({-0.01, 0.01, 0.02}, {0.015, 0.012, 0.022}, 0.004));

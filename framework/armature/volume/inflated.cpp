@@ -11,6 +11,9 @@ namespace armature {
 
 namespace {
 
+/// What a byte of deflate's becomes at most: two bits stand for 258 bytes.
+constexpr std::size_t kMostPerByte = 1032;
+
 /// Gives zlib the next piece of `left` when it has used up the one before.
 void feed(uInt& available, std::size_t& left, std::size_t piece_bytes) {
   if (available > 0) return;
@@ -26,17 +29,19 @@ Expected<std::string> inflated(std::string_view gzip, std::size_t max_bytes,
   z_stream stream{};
   if (inflateInit2(&stream, MAX_WBITS + kGzip) != Z_OK) return refuse("zlib cannot begin");
   const std::unique_ptr<z_stream, int (*)(z_stream*)> end{&stream, inflateEnd};
-  std::string bytes(max_bytes, '\0');
+  // No more than the data can hold, whatever is claimed of them.
+  const std::size_t room = std::min(max_bytes, kMostPerByte * gzip.size());
+  std::string bytes(room, '\0');
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(gzip.data()));
   stream.next_out = reinterpret_cast<Bytef*>(bytes.data());
-  std::size_t unread = gzip.size(), unwritten = max_bytes;
+  std::size_t unread = gzip.size(), unwritten = room;
   int status = Z_OK;
   while (status == Z_OK) {
     feed(stream.avail_in, unread, piece_bytes);
     feed(stream.avail_out, unwritten, piece_bytes);
     status = inflate(&stream, Z_NO_FLUSH);
   }
-  const std::size_t written = max_bytes - unwritten - stream.avail_out;
+  const std::size_t written = room - unwritten - stream.avail_out;
   // Nothing is left of the input, or no room.
   const bool is_stuck = status == Z_BUF_ERROR;
   if (status != Z_STREAM_END && !is_stuck) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What gzip compressed comes out again: 1. whatever the size of a piece, 2. no more than was asked
-// for, 3. what is damaged or ends too early is refused.
+// for, nor memory for more than there can be, 3. what is damaged or ends too early is refused.
 #include "armature/volume/inflated.hpp"
 
 #include <gtest/gtest.h>
@@ -53,6 +53,15 @@ TEST(Inflated, GivesNoMoreThanWasAskedForAndNoMoreThanThereIs) {
     EXPECT_EQ(inflated(gzip, 4000, piece).value(), bytes) << piece;
     EXPECT_EQ(inflated(gzip, 0, piece).value(), "") << piece;
   }
+}
+
+TEST(Inflated, TakesMemoryForWhatTheDataCanHoldAndNotForWhatIsAskedFor) {
+  const std::size_t more_than_any_memory = std::size_t{1} << 60;
+  const std::string bytes = thousand_bytes();
+  EXPECT_EQ(inflated(compressed(bytes), more_than_any_memory).value(), bytes);
+  const std::string zeros(1'000'000, '\0');  // nothing is compressed more
+  EXPECT_EQ(inflated(compressed(zeros), more_than_any_memory).value(), zeros);
+  EXPECT_EQ(inflated(compressed(zeros), zeros.size()).value(), zeros);
 }
 
 TEST(Inflated, ThatEndsTooEarlyOrIsDamagedIsRefused) {

@@ -10,6 +10,10 @@
 namespace armature {
 namespace {
 
+/// Neighbours that are farther apart do not tell what the arm did between them. The slowest arms
+/// report ten times a second.
+constexpr Duration kFarthestApart = std::chrono::milliseconds{150};
+
 Expected<JointVector> outside(Time t, Duration by, std::string_view side) {
   return refuse(fmt::format("t = {:.3f} s is {:.1f} ms {} than the history", to_seconds(t - Time{}),
                             to_seconds(by) * 1e3, side));
@@ -21,8 +25,12 @@ FrameBuffer::FrameBuffer(const RobotModel& model, std::size_t capacity)
     : model_(&model), ring_(std::max<std::size_t>(capacity, 1)) {}
 
 void FrameBuffer::add(Time stamp, const JointVector& q) {
-  if (!empty() && stamp <= newest()) return;
-  if (count_ < ring_.size()) {
+  if (!empty() && stamp <= newest()) {
+    // A newest sample that lies far ahead of all others is the one whose stamp is wrong.
+    const bool is_newest_alone = count_ > 1 && newest() - entry(count_ - 2).stamp > kFarthestApart;
+    if (!is_newest_alone || stamp <= entry(count_ - 2).stamp) return;
+    ring_[(first_ + count_ - 1) % ring_.size()] = {stamp, q};
+  } else if (count_ < ring_.size()) {
     ring_[(first_ + count_++) % ring_.size()] = {stamp, q};
   } else {
     ring_[first_] = {stamp, q};
@@ -51,6 +59,10 @@ Expected<JointVector> FrameBuffer::joints_at(Time t) const {
   const Entry &a = entry(before), &b = entry(after);
   if (t == b.stamp) return b.q;
   if (t == a.stamp) return a.q;
+  if (b.stamp - a.stamp > kFarthestApart) {
+    return refuse(fmt::format("the joint positions next to t = {:.3f} s are {:.3f} s apart",
+                              to_seconds(t - Time{}), to_seconds(b.stamp - a.stamp)));
+  }
   const double part = to_seconds(t - a.stamp) / to_seconds(b.stamp - a.stamp);
   return JointVector{a.q + part * (b.q - a.q)};
 }

@@ -13,7 +13,8 @@ namespace armature ARMATURE_EXPORT {
 
 /// Answers "base_T_frame at t" from a bounded history of joint positions and the robot's named
 /// frames. Joint positions are interpolated linearly between the two neighbours of t, and carried
-/// on beyond the newest sample for no longer than that is after the one before.
+/// on beyond the newest sample for no longer than that is after the one before. Neighbours that are
+/// more than 0.15 s apart tell nothing of what is between or behind them.
 /// No allocation after construction, except for the text of a refusal. Not thread-safe: one owner.
 class FrameBuffer {
  public:
@@ -21,6 +22,7 @@ class FrameBuffer {
   FrameBuffer(const RobotModel& model, std::size_t capacity);
 
   /// Adds a sample of the independent joints; stamps must ascend, an older or equal one is ignored.
+  /// A newest one more than 0.15 s ahead of those before it gives way to one that comes between.
   void add(Time stamp, const JointVector& q);
 
   /// The independent joints at `t`, or "t = 3.512 s is 12.0 ms newer than the history" / "... older

@@ -67,6 +67,32 @@ TEST_F(FrameBufferOfTheLamp, SaysByHowMuchAnInstantIsOutsideOfTheHistory) {
             "t = 3.397 s is 3.5 ms older than the history");
 }
 
+TEST_F(FrameBufferOfTheLamp, TellsNothingOfAGapNorOfWhatFollowsItsFirstSample) {
+  for (const int t : {1000, 1010, 3010}) add_ms(t);
+  EXPECT_TRUE(*buffer.joints_at(Time{1010 * kMillisecond}) == joints(1010));
+  EXPECT_TRUE(*buffer.joints_at(Time{3010 * kMillisecond}) == joints(3010));
+  EXPECT_EQ(buffer.joints_at(Time{2000 * kMillisecond}).error().text,
+            "the joint positions next to t = 2.000 s are 2.000 s apart");
+  EXPECT_FALSE(buffer.joints_at(Time{3020 * kMillisecond}));
+  add_ms(3020);
+  EXPECT_TRUE(buffer.joints_at(Time{3030 * kMillisecond}));
+}
+
+TEST_F(FrameBufferOfTheLamp, AnswersForAnArmThatReportsTenTimesASecond) {
+  for (const int t : {1000, 1100, 1200, 1310}) add_ms(t);
+  for (const int t : {1050, 1260, 1400}) {
+    EXPECT_LT((*buffer.joints_at(Time{t * kMillisecond}) - joints(t)).norm(), 1e-12) << t;
+  }
+}
+
+TEST_F(FrameBufferOfTheLamp, DropsASampleWhoseStampLiesAheadOfThoseBehindIt) {
+  for (const int t : {1000, 1010}) add_ms(t);
+  buffer.add(Time{3'600'000 * kMillisecond}, joints(1015));
+  for (int t = 1020; t < 1100; t += 10) add_ms(t);
+  EXPECT_EQ(buffer.newest(), Time{1090 * kMillisecond});
+  EXPECT_LT((*buffer.joints_at(Time{1035 * kMillisecond}) - joints(1035)).norm(), 1e-12);
+}
+
 TEST_F(FrameBufferOfTheLamp, RefusesWhileNothingHasArrived) {
   EXPECT_TRUE(buffer.empty());
   EXPECT_EQ(buffer.newest(), Time{});

@@ -90,9 +90,11 @@ Expected<Answer> answer_to(const Registrar& registrar, const Parameters& paramet
   auto found = guarded([&] { return registrar.find(markers); });
   if (!found) return tl::unexpected{found.error()};
   Answer answer{std::move(*match), std::move(*found), {}};
+  // A marker that was left out passes no error on, and to find it again and again takes long.
+  const MarkerPairs used = only(markers, answer.found.used);
   for (const msg::Point& target : request.targets_()) {
     const auto error = guarded([&] {
-      return predicted_error(registrar, markers, to_eigen(target), request.marker_error_());
+      return predicted_error(registrar, used, to_eigen(target), request.marker_error_());
     });
     if (!error) return tl::unexpected{error.error()};
     answer.errors.push_back(*error);

@@ -23,10 +23,12 @@ namespace {
 class FirstMarker final : public Registrar {
  public:
   static inline bool throws = false, uses_all = false;
+  static inline std::size_t asked_with = 0;  // markers, the last time
 
   Expected<Registration> find(const MarkerPairs& markers) const override {
     if (throws) throw std::runtime_error{"the matrix is singular"};
     if (auto wrong = invalid_input(markers, 1)) return refuse(std::move(*wrong));
+    asked_with = markers.image.size();
     Registration found;
     found.robot_T_image.translation() = markers.robot[0] - markers.image[0];
     found.used.assign(markers.image.size(), uses_all);
@@ -105,6 +107,15 @@ TEST_F(RegistrationHostTest, TellsTheMapItsMarkersAndTheTargets) {
   EXPECT_LT((target - Eigen::Vector3d{1.03, 2.02, 3.01}).norm(), 1e-12);
   EXPECT_NEAR(answer.targets_()[0].error_rms_(), 0.0005, 1e-9);
   EXPECT_GT(answer.targets_()[0].error_95_(), 0.0005);
+}
+
+TEST_F(RegistrationHostTest, PredictsErrorsWithTheUsedMarkersOnly) {
+  EXPECT_TRUE(ask(request(5)).valid_());
+  EXPECT_EQ(FirstMarker::asked_with, 1u);
+  msg::RegistrationRequest without_targets = request(5);
+  without_targets.targets_().clear();
+  EXPECT_TRUE(ask(without_targets).valid_());
+  EXPECT_EQ(FirstMarker::asked_with, kMarkers.size());
 }
 
 TEST_F(RegistrationHostTest, TakesOrderedMarkersAsTheyStand) {

@@ -19,9 +19,9 @@
 
 namespace armature::report::images {
 
-/// Of the true markers that were found.
+/// Of the true markers that were found, and how many were not.
 struct MarkerErrors {
-  int found = 0;
+  int found = 0, missing = 0;
   double sum2 = 0, max = 0, max_sigmas = 0, min_confidence = 1;  // [m2], [m]
 
   void add(double error, const msg::ImageMarker& marker) {
@@ -46,7 +46,11 @@ MarkerErrors errors_of(const msg::NeedlePlan& truth, const msg::ImageMarkers& ma
       const double off = (to_eigen(marker.position_()) - to_eigen(place)).norm();
       if (off < distance) distance = off, nearest = &marker;
     }
-    if (nearest) errors.add(distance, *nearest);
+    if (nearest) {
+      errors.add(distance, *nearest);
+    } else {
+      ++errors.missing;
+    }
   }
   return errors;
 }
@@ -75,7 +79,15 @@ class ImagesReport final : public Component {
     if (errors_ && errors_->found > 0) {
       summary.metric("marker_error_rms_mm", "their error, rms [mm]",
                      1e3 * std::sqrt(errors_->sum2 / errors_->found));
-      summary.metric("max_marker_error_mm", "the worst one's [mm]", 1e3 * errors_->max);
+      constexpr const char *kWorst = "max_marker_error_mm", *kTitle = "the worst one's [mm]";
+      if (errors_->missing == 0) {
+        summary.metric(kWorst, kTitle, 1e3 * errors_->max);
+      } else {
+        summary.not_measured(
+            kWorst, kTitle,
+            fmt::format("{} of {} markers were not found to within {:g} mm", errors_->missing,
+                        errors_->found + errors_->missing, 1e3 * kSame));
+      }
       summary.metric("max_marker_error_sigmas", "the worst in sigmas", errors_->max_sigmas);
       summary.metric("min_marker_confidence", "the least confidence", errors_->min_confidence);
     }

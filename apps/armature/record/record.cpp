@@ -151,6 +151,7 @@ int record_topics(const RecordOptions& options) {
   try {
     recorder.close();
   } catch (const std::runtime_error& error) {
+    if (!recorder.has_its_file()) throw;  // what has the name now is somebody else's
     if (recorder.messages() == 0) {
       destination.drop();
       throw;

@@ -25,6 +25,8 @@ class Recorder {
   std::string problem() const { return queue_.problem(); }
   /// Writes what waits, and ends the file. Throws std::runtime_error.
   void close() { queue_.close(); }
+  /// Whether the file stands under its name still.
+  bool has_its_file() const { return queue_.has_its_file(); }
 
   /// Those that stand in the file, after close() or when it has thrown.
   std::uint64_t messages() const { return queue_.messages(); }

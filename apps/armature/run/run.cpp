@@ -211,7 +211,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   ReportList list{options.report.value_or("")};
   int code = conclude(options, deployment, report, list, console, end);
   tell_status_to_black_box(report.status(), deployment);
-  deployment.end_recording(figures_json(report, timing));
+  if (!deployment.end_recording(figures_json(report, timing))) code = kFailed;
   end.do_unwatched([&] {
     if (recording && !joined(*recording, deployment.config(), console)) code = kFailed;
     if (options.report && !page_written(recording, *options.report, console)) code = kFailed;

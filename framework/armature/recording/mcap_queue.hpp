@@ -67,6 +67,9 @@ class McapQueue {
   std::map<std::uint16_t, std::uint64_t> dropped() const;
   /// Writes what waits, and ends the file. Throws std::runtime_error.
   void close();
+  /// Whether the file that is written stands under its name still; true when none is. Not while
+  /// one around a moment may begin or end.
+  bool has_its_file() const { return !writer_ || writer_->has_its_file(); }
   // After `close`, or when it has thrown:
   /// Those that stand in files, also in one that could not be ended.
   std::uint64_t messages() const { return messages_ + (writer_ ? writer_->messages_in_file() : 0); }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -173,6 +174,37 @@ TEST_F(McapQueueTest, TellsWhatItCannotWriteAndTakesNoMore) {
   std::uint64_t readable = 0;
   while (reader.next()) ++readable;
   EXPECT_EQ(readable, queue.messages());
+}
+
+TEST_F(McapQueueTest, WhoseFileIsRemovedMovedOrReplacedSaysSoWithinASecondAndClosesNone) {
+  const fs::path folder = folder_ / "runs", file = folder / "a.mcap";
+  const std::vector<std::function<void()>> losses{
+      [&] { fs::remove(file); }, [&] { fs::remove_all(folder); },
+      [&] { fs::rename(folder, folder_ / "elsewhere"); },
+      [&] {
+        std::ofstream{folder / "b.mcap"} << "of somebody else";
+        fs::rename(folder / "b.mcap", file);
+      }};
+  for (const bool goes_on : {true, false}) {
+    for (const auto& lose : losses) {
+      fs::remove_all(folder);
+      fs::remove_all(folder_ / "elsewhere");
+      fs::create_directory(folder);
+      McapQueue queue{file, {}, McapQueue::WhenFull::wait};
+      write(queue, queue.add_channel("/a", kType), 1);
+      EXPECT_TRUE(queue.has_its_file());
+      lose();
+      EXPECT_FALSE(queue.has_its_file());
+      const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+      while (goes_on && queue.problem().empty() && std::chrono::steady_clock::now() < end) {
+        std::this_thread::sleep_for(std::chrono::milliseconds{10});
+      }
+      EXPECT_THAT([&] { queue.close(); },
+                  testing::ThrowsMessage<std::runtime_error>(
+                      HasSubstr("a.mcap' was removed, moved or replaced while it was recorded")));
+      EXPECT_EQ(queue.messages(), 0U) << "nothing of it stands in the file of that name";
+    }
+  }
 }
 
 TEST_F(McapQueueTest, OfAFileWithoutAWholeChunkItCountsNoMessage) {

@@ -180,6 +180,22 @@ void McapWriter::put(std::span<const std::byte> bytes) {
   position_ += bytes.size();
 }
 
+bool McapWriter::has_its_file() const {
+  struct stat written {};
+  struct stat named {};
+  if (fstat(descriptor_, &written) != 0 || !S_ISREG(written.st_mode)) return true;
+  return stat(file_.c_str(), &named) == 0 && named.st_dev == written.st_dev &&
+         named.st_ino == written.st_ino;
+}
+
+void McapWriter::check_file() {
+  if (broken_ || has_its_file()) return;
+  broken_ = true;
+  messages_in_file_ = 0;
+  throw std::runtime_error(
+      fmt::format("'{}' was removed, moved or replaced while it was recorded", file_.string()));
+}
+
 std::uint16_t McapWriter::add(McapSchema schema) {
   schema.id = static_cast<std::uint16_t>(schemas_.size() + 1);  // 0 stands for none
   Bytes& record = schemas_.emplace_back();
@@ -230,6 +246,7 @@ void McapWriter::write(std::uint16_t channel, std::uint32_t sequence, Time log_t
 }
 
 void McapWriter::end_chunk() {
+  check_file();
   if (chunk_.records.empty()) return;
   const Bytes* records = &chunk_.records;
   std::string_view compression;
@@ -343,6 +360,7 @@ void McapWriter::close() {
   end_record(bytes, begin);
   put_hashed(bytes);
   put_summary();
+  check_file();
   const bool synced = fsync(descriptor_) == 0 || errno == EINVAL || errno == EROFS;  // a pipe
   if (!synced || ::close(std::exchange(descriptor_, -1)) != 0) {
     throw std::runtime_error(fmt::format("cannot write '{}': {}", file_.string(),

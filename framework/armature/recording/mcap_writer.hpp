@@ -20,8 +20,9 @@ namespace armature ARMATURE_EXPORT {
 /// so that viewers seek in it, all in a chain of hashes. What stands in the file when the program
 /// dies, or the disk is full, is readable to its last chunk. Every function throws
 /// std::runtime_error with the file's name and the system's reason when writing fails, and the file
-/// takes nothing from then on. A file that another
-/// writer has open is refused, and stays as it is. One thread at a time; not real-time safe.
+/// takes nothing from then on; so it is when the file was removed, moved or replaced meanwhile,
+/// which is found when a chunk ends and when the file is closed. A file that another writer has
+/// open is refused, and stays as it is. One thread at a time; not real-time safe.
 class McapWriter {
  public:
   struct Options {
@@ -55,6 +56,8 @@ class McapWriter {
 
   /// Where it stands.
   const std::filesystem::path& file() const { return file_; }
+  /// Whether what is written stands there still; true of what is no regular file. Until close().
+  bool has_its_file() const;
   std::uint64_t messages() const { return messages_; }
   /// Those of them whose chunk stands in the file: readable, whatever becomes of the rest.
   std::uint64_t messages_in_file() const { return messages_in_file_; }
@@ -81,6 +84,7 @@ class McapWriter {
   class Zstd;
 
   void put(std::span<const std::byte> bytes);
+  void check_file();
   /// Writes what is part of the chain.
   void put_hashed(std::span<const std::byte> bytes);
   /// All that was written since the last link is one now.

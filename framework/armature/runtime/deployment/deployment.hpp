@@ -81,8 +81,9 @@ class Deployment {
   void record(const std::filesystem::path& file,
               const std::function<std::filesystem::path(Time)>& file_at);
   /// After the run: ends the recording, if there is one, and tells what became of it. `figures` are
-  /// those of the run (figures_json), which go into it; empty: this process has none.
-  void end_recording(const std::string& figures = {});
+  /// those of the run (figures_json), which go into it; empty: this process has none. False when
+  /// the recording has no end.
+  bool end_recording(const std::string& figures = {});
 
   /// Waits until the topics between this and the other processes have met, so that what is sent
   /// once is not lost, and until `watch` lets it begin. Then runs until a component is finished or

@@ -159,8 +159,8 @@ void Deployment::end() {
   for (const std::string& refusal : remote_->refusals()) options_.on_note(refusal);
 }
 
-void Deployment::end_recording(const std::string& figures) {
-  if (!recorder_) return;
+bool Deployment::end_recording(const std::string& figures) {
+  if (!recorder_) return true;
   options_.on_ending("the end of the recording");
   std::optional<McapAttachment> attached;
   if (!figures.empty()) {
@@ -173,11 +173,13 @@ void Deployment::end_recording(const std::string& figures) {
   try {
     const std::string file = recorder_->close(attached);
     if (!file.empty()) tell("recorded: " + file, StatusReporter::State::ok);
+    return true;
   } catch (const std::exception& error) {
     options_.on_note(
         fmt::format("the recording has no end: {}; what is in it is made whole by: "
                     "armature record --repair",
                     error.what()));
+    return false;
   }
 }
 

@@ -29,8 +29,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// `wanted` is the name of a topic as DDS has it, or as ROS 2 has it.
 bool matches(const std::string& topic, const std::string& wanted) {
-  return matches_topic(wanted.ends_with('*') ? wanted : ros_topic_name(dds_topic_name(wanted)),
+  return topic == wanted ||
+         matches_topic(wanted.ends_with('*') ? wanted : ros_topic_name(dds_topic_name(wanted)),
                        topic);
 }
 
@@ -41,9 +43,18 @@ class Topics {
       : options_{options}, recorder_{recorder}, outsider_{options} {}
 
   void look() {
+    const std::vector<std::string> again = outsider_.dds().watch_again();
     for (const ObservedTopic& topic : outsider_.dds().topics()) {
       const std::string name = ros_topic_name(topic.name);
       if (const auto watched = watched_.find(name); watched != watched_.end()) {
+        if (std::ranges::find(again, topic.name) != again.end()) {
+          watched->second = topic.endpoints.front();
+          told_unheard_.erase(name);
+          fmt::print(stderr,
+                     "armature: {} came back with another type or less QoS: it is recorded anew "
+                     "from here on, and what was sent before that is missing\n",
+                     config::in_quotes(name));
+        }
         tell_unheard(name, unheard_writers(topic, watched->second));
         continue;
       }
@@ -73,12 +84,11 @@ class Topics {
   /// Once for each topic.
   void tell_unheard(const std::string& name, int writers) {
     if (writers == 0 || !told_unheard_.insert(name).second) return;
-    fmt::print(
-        stderr,
-        "armature: {} of the writers of '{}' are not recorded: a topic is read with the type "
-        "and the QoS of the writer that came first, and theirs do not match; give all of "
-        "them the same ('armature topic info {}' shows them)\n",
-        writers, name, name);
+    fmt::print(stderr,
+               "armature: {} of the writers of {} are not recorded: a topic is read with the type "
+               "and the QoS of the writer that came first, and theirs do not match; give all of "
+               "them the same ('armature topic info' shows them)\n",
+               writers, config::in_quotes(name));
   }
 
   const RecordOptions& options_;
@@ -90,11 +100,12 @@ class Topics {
 
 void tell_lost(const Recorder& recorder) {
   for (const auto& [topic, count] : recorder.dropped()) {
-    fmt::print(stderr, "armature: {} samples of '{}' came faster than they could be written\n",
-               count, topic);
+    fmt::print(stderr, "armature: {} samples of {} came faster than they could be written\n", count,
+               config::in_quotes(topic));
   }
   for (const auto& [topic, count] : recorder.lost()) {
-    fmt::print(stderr, "armature: {} samples of '{}' did not arrive\n", count, topic);
+    fmt::print(stderr, "armature: {} samples of {} did not arrive\n", count,
+               config::in_quotes(topic));
   }
 }
 

@@ -23,7 +23,7 @@ void Recorder::add(const std::string& topic, const ObservedSample& sample) {
 }
 
 Recorder::Channel& Recorder::channel_of(const std::string& topic, const std::string& type) {
-  const auto [place, is_new] = channels_.try_emplace(topic);
+  const auto [place, is_new] = channels_.try_emplace({topic, type});
   if (is_new) place->second.id = queue_.add_channel(topic, type);
   return place->second;
 }
@@ -40,9 +40,16 @@ void Recorder::attach_new(const ObservedSample& description, Time arrived) {
 std::uint64_t Recorder::unwritten() const {
   const std::scoped_lock lock{mutex_};
   std::uint64_t unwritten = 0;
-  for (const auto& [topic, channel] : channels_) unwritten += channel.messages;
+  for (const auto& [key, channel] : channels_) unwritten += channel.messages;
   for (const auto& [channel, count] : queue_.dropped()) unwritten -= count;
   return unwritten - queue_.messages();
+}
+
+std::size_t Recorder::topics() const {
+  const std::scoped_lock lock{mutex_};
+  std::set<std::string> topics;
+  for (const auto& [key, channel] : channels_) topics.insert(key.first);
+  return topics.size();
 }
 
 std::map<std::string, std::uint64_t> Recorder::lost() const {
@@ -54,9 +61,9 @@ std::map<std::string, std::uint64_t> Recorder::dropped() const {
   const std::scoped_lock lock{mutex_};
   const auto by_channel = queue_.dropped();
   std::map<std::string, std::uint64_t> dropped;
-  for (const auto& [topic, channel] : channels_) {
+  for (const auto& [key, channel] : channels_) {
     const auto found = by_channel.find(channel.id);
-    if (found != by_channel.end()) dropped[topic] = found->second;
+    if (found != by_channel.end()) dropped[key.first] += found->second;
   }
   return dropped;
 }

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "armature/bus/fast_dds/observer.hpp"
 #include "armature/recording/mcap_queue.hpp"
@@ -36,7 +37,7 @@ class Recorder {
   std::uint64_t bytes() const { return queue_.bytes(); }
   /// The last hash of the file's chain, after close().
   std::string head() const { return queue_.head(); }
-  std::size_t topics() const { return channels_.size(); }
+  std::size_t topics() const;
   /// The number of samples that came faster than they could be written, by topic.
   std::map<std::string, std::uint64_t> dropped() const;
   /// The number of samples that were sent and did not arrive, by topic.
@@ -52,8 +53,8 @@ class Recorder {
 
   McapQueue queue_;
   mutable std::mutex mutex_;
-  std::map<std::string, Channel> channels_;  // by topic
-  std::set<std::string> attached_;           // runs
+  std::map<std::pair<std::string, std::string>, Channel> channels_;  // by topic and type
+  std::set<std::string> attached_;                                   // runs
   std::map<std::string, std::uint64_t> lost_;
 };
 

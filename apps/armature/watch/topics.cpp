@@ -38,11 +38,13 @@ std::string counted(int count, std::string_view what) {
 
 /// The topic as discovery shows it once it is there; nothing: the time is over.
 std::optional<ObservedTopic> find_topic(Outsider& outsider, const TopicOptions& options) {
-  const std::string name = dds_topic_name(options.topic);
-  const auto found = [&] {
+  const auto found = [&]() -> std::optional<ObservedTopic> {
     const auto topics = outsider.dds().topics();
-    const auto topic = std::ranges::find(topics, name, &ObservedTopic::name);
-    return topic == topics.end() ? std::nullopt : std::optional{*topic};
+    for (const std::string& name : {options.topic, dds_topic_name(options.topic)}) {
+      const auto topic = std::ranges::find(topics, name, &ObservedTopic::name);
+      if (topic != topics.end()) return *topic;
+    }
+    return std::nullopt;
   };
   const Time start = monotonic_now();
   for (bool told = false; !found(); wait_for(seconds(0.02))) {

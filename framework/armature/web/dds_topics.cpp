@@ -22,6 +22,11 @@ DdsTopics::DdsTopics(PluginRegistry& plugins, const NetworkOptions& network,
 
 std::vector<TopicSource::Topic> DdsTopics::topics() const {
   constexpr std::size_t kKept = 100;  // of a latched topic, as DDS keeps them
+  for (const std::string& topic : observer_->watch_again()) {
+    const std::string name = ros_topic_name(topic);
+    tell_once(topic,
+              fmt::format("'{}' came back with another type or less QoS: it is read anew", name));
+  }
   std::vector<Topic> topics;
   for (const ObservedTopic& topic : observer_->topics()) {
     if (topic.writers == 0) continue;
@@ -37,16 +42,19 @@ std::vector<TopicSource::Topic> DdsTopics::topics() const {
 }
 
 void DdsTopics::tell_conflicts(const ObservedTopic& topic) const {
-  constexpr std::size_t kMostTold = 100;
   const std::string& shown = topic.endpoints.front().type;
   for (const ObservedEndpoint& endpoint : topic.endpoints) {
-    if (!endpoint.writes || endpoint.type == shown || told_.size() >= kMostTold) continue;
-    if (!told_.insert(endpoint.owner + " " + topic.name).second) continue;
-    on_conflict_(
-        fmt::format("a writer of {} writes '{}', too, as {}: it is shown as {}, and what "
-                    "that one writes is not",
-                    endpoint.owner, ros_topic_name(topic.name), endpoint.type, shown));
+    if (!endpoint.writes || endpoint.type == shown) continue;
+    tell_once(endpoint.owner + " " + topic.name,
+              fmt::format("a writer of {} writes '{}', too, as {}: it is shown as {}, and what "
+                          "that one writes is not",
+                          endpoint.owner, ros_topic_name(topic.name), endpoint.type, shown));
   }
+}
+
+void DdsTopics::tell_once(const std::string& what, const std::string& text) const {
+  constexpr std::size_t kMostTold = 100;
+  if (told_.size() < kMostTold && told_.insert(what).second) on_conflict_(text);
 }
 
 TopicSource::Schema DdsTopics::schema_of(const Topic& topic) const {

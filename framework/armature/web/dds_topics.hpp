@@ -19,7 +19,8 @@ class DdsTopics final : public TopicSource {
  public:
   /// Joins the domain with the observer among `plugins`, which outlive this. Throws PluginError
   /// with the reason when the domain cannot be joined. `on_conflict` is told once, by `topics`, of
-  /// each program that writes a topic as another type than the one that is shown.
+  /// each program that writes a topic as another type than the one that is shown, and of each topic
+  /// that is read anew because its writers came back with another type or less QoS.
   DdsTopics(PluginRegistry& plugins, const NetworkOptions& network,
             std::function<void(const std::string&)> on_conflict);
 
@@ -32,6 +33,8 @@ class DdsTopics final : public TopicSource {
 
  private:
   void tell_conflicts(const ObservedTopic& topic) const;
+  /// At most a hundred, each once: `what` tells them apart.
+  void tell_once(const std::string& what, const std::string& text) const;
 
   std::function<void(const std::string&)> on_conflict_;
   mutable std::set<std::string> told_;

@@ -9,7 +9,7 @@
 #include <fastdds/dds/subscriber/Subscriber.hpp>
 #include <fastdds/dds/subscriber/qos/DataReaderQos.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
-#include <fastdds/dds/topic/TopicDescription.hpp>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -51,11 +51,26 @@ ObservedEndpoint observed(const Endpoint& endpoint, const Discovery& discovery) 
   return seen;
 }
 
+using OnSample = std::function<void(const ObservedSample&)>;
+
 class Watch final : public dds::DataReaderListener {
  public:
-  Watch(std::string type, const Discovery& discovery,
-        std::function<void(const ObservedSample&)> on_sample)
-      : type_{std::move(type)}, discovery_{discovery}, on_sample_{std::move(on_sample)} {}
+  /// `read_like`: the writer that the reader is made for.
+  Watch(std::string asked, Endpoint read_like, const Discovery& discovery, OnSample on_sample)
+      : asked_{std::move(asked)},
+        read_like_{std::move(read_like)},
+        discovery_{discovery},
+        on_sample_{std::move(on_sample)} {}
+
+  /// The name that was asked for, and that of DDS.
+  const std::string& asked() const { return asked_; }
+  const std::string& topic() const { return read_like_.topic; }
+  const OnSample& on_sample() const { return on_sample_; }
+  /// Whether it asks a writer of its topic for no more than that one offers.
+  bool hears(const Endpoint& writer) const {
+    return writer.type == read_like_.type && (writer.reliable || !read_like_.reliable) &&
+           (writer.transient_local || !read_like_.transient_local);
+  }
 
   void on_data_available(dds::DataReader* from) override {
     const std::scoped_lock lock{mutex_};
@@ -66,8 +81,8 @@ class Watch final : public dds::DataReaderListener {
       const Guid writer = guid_of(info.sample_identity.writer_guid());
       const std::uint64_t lost =
           gaps_.lost_before(writer, info.sample_identity.sequence_number().to64long());
-      on_sample_(
-          {cdr_.bytes, Time{info.source_timestamp.to_ns()}, type_, lost, writer_with(writer)});
+      on_sample_({cdr_.bytes, Time{info.source_timestamp.to_ns()}, read_like_.type, lost,
+                  writer_with(writer)});
     }
   }
 
@@ -80,9 +95,10 @@ class Watch final : public dds::DataReaderListener {
     return found ? &writers_.emplace(guid, observed(*found, discovery_)).first->second : nullptr;
   }
 
-  std::string type_;
+  const std::string asked_;
+  const Endpoint read_like_;
   const Discovery& discovery_;
-  std::function<void(const ObservedSample&)> on_sample_;
+  const OnSample on_sample_;
   std::mutex mutex_;
   IncomingBytes cdr_;
   SequenceGaps gaps_;
@@ -119,52 +135,89 @@ class Observer final : public DdsObserver {
     return sorted;
   }
 
-  Expected<void> watch(const std::string& topic, Duration timeout,
-                       std::function<void(const ObservedSample&)> on_sample) override {
-    const std::string name = dds_topic_name(topic);
-    const auto writer = wait_for_writer(name, timeout);
-    if (!writer) return refuse("nobody writes '" + ros_topic_name(name) + "'");
-    const auto dds_topic = participant_->topic(name, writer->type);
-    if (!dds_topic) return tl::unexpected{dds_topic.error()};
-    // Asks for what the writer offers and no more, so that it always matches. What it keeps for
-    // late joiners comes all at once.
-    const QosSettings settings{.reader_reliable = writer->reliable && asks_again_,
-                               .transient_local = writer->transient_local,
-                               .depth = writer->transient_local ? 100 : 10};
-    auto watch =
-        std::make_unique<Watch>(writer->type, participant_->discovery(), std::move(on_sample));
-    watch->reader = participant_->subscriber().create_datareader(
-        *dds_topic, reader_qos(settings, std::nullopt, ""), watch.get());
-    if (!watch->reader)
-      return refuse("DDS: cannot create a reader on '" + ros_topic_name(name) + "'");
-    watches_.push_back(std::move(watch));
-    return {};
+  Expected<void> watch(const std::string& topic, Duration timeout, OnSample on_sample) override {
+    auto writer = wait_for_writer(topic, timeout);
+    if (!writer) {
+      return refuse("nobody writes '" + ros_topic_name(dds_topic_name(topic)) + "'");
+    }
+    return watch(topic, std::move(*writer), std::move(on_sample));
   }
 
   void unwatch(const std::string& topic) override {
-    const std::string name = dds_topic_name(topic);
     std::erase_if(watches_, [&](const auto& watch) {
-      const bool is_it = watch->reader->get_topicdescription()->get_name() == name;
+      const bool is_it = watch->asked() == topic;
       if (is_it) end(*watch);
       return is_it;
     });
   }
 
+  std::vector<std::string> watch_again() override {
+    const auto endpoints = participant_->discovery().endpoints();
+    const auto hears = [&](const auto& watch) {
+      const auto is_heard = [&](const Endpoint& endpoint) {
+        return endpoint.topic == watch->topic() && endpoint.writes && watch->hears(endpoint);
+      };
+      return std::ranges::any_of(endpoints, is_heard) || !first_writer(endpoints, watch->topic());
+    };
+    const auto first_deaf = std::stable_partition(watches_.begin(), watches_.end(), hears);
+    const std::vector<std::unique_ptr<Watch>> deaf{std::move_iterator{first_deaf},
+                                                   std::move_iterator{watches_.end()}};
+    watches_.erase(first_deaf, watches_.end());
+    for (const auto& watch : deaf) end(*watch);
+    std::vector<std::string> again;
+    for (const auto& ended : deaf) {
+      auto writer = first_writer(endpoints, ended->topic());
+      if (watch(ended->asked(), std::move(*writer), ended->on_sample())) {
+        again.push_back(ended->topic());
+      }
+    }
+    return again;
+  }
+
  private:
+  Expected<void> watch(const std::string& asked, Endpoint writer, OnSample on_sample) {
+    const auto dds_topic = participant_->topic(writer.topic, writer.type);
+    if (!dds_topic) return tl::unexpected{dds_topic.error()};
+    // Asks for what the writer offers and no more, so that it always matches. What it keeps for
+    // late joiners comes all at once.
+    writer.reliable = writer.reliable && asks_again_;
+    const QosSettings settings{.reader_reliable = writer.reliable,
+                               .transient_local = writer.transient_local,
+                               .depth = writer.transient_local ? 100 : 10};
+    auto watch = std::make_unique<Watch>(asked, std::move(writer), participant_->discovery(),
+                                         std::move(on_sample));
+    watch->reader = participant_->subscriber().create_datareader(
+        *dds_topic, reader_qos(settings, std::nullopt, ""), watch.get());
+    if (!watch->reader) {
+      return refuse("DDS: cannot create a reader on '" + ros_topic_name(watch->topic()) + "'");
+    }
+    watches_.push_back(std::move(watch));
+    return {};
+  }
+
   void end(const Watch& watch) {
     watch.reader->set_listener(nullptr);
     participant_->subscriber().delete_datareader(watch.reader);
+    participant_->drop_topic(watch.topic());  // its next writer may have another type
   }
 
-  std::optional<Endpoint> wait_for_writer(const std::string& topic, Duration timeout) const {
+  static std::optional<Endpoint> first_writer(const std::vector<Endpoint>& endpoints,
+                                              const std::string& topic) {
+    std::optional<Endpoint> first;
+    for (const Endpoint& endpoint : endpoints) {
+      if (endpoint.topic != topic || !endpoint.writes) continue;
+      if (!first || place(endpoint) < place(*first)) first = endpoint;
+    }
+    return first;
+  }
+
+  std::optional<Endpoint> wait_for_writer(const std::string& asked, Duration timeout) const {
     const auto deadline = std::chrono::steady_clock::now() + timeout;
     do {
-      std::optional<Endpoint> first;
-      for (Endpoint& endpoint : participant_->discovery().endpoints()) {
-        if (endpoint.topic != topic || !endpoint.writes) continue;
-        if (!first || place(endpoint) < place(*first)) first = std::move(endpoint);
+      const auto endpoints = participant_->discovery().endpoints();
+      for (const std::string& topic : {asked, dds_topic_name(asked)}) {
+        if (auto first = first_writer(endpoints, topic)) return first;
       }
-      if (first) return first;
       std::this_thread::sleep_for(std::chrono::milliseconds{10});
     } while (std::chrono::steady_clock::now() < deadline);
     return std::nullopt;

@@ -69,13 +69,19 @@ class DdsObserver {
   virtual std::vector<ObservedTopic> topics() const = 0;
 
   /// Waits until `topic` has a writer (at most `timeout`), then calls `on_sample` on a DDS thread,
-  /// one sample at a time, until the observer is destroyed. Takes "rt/a/b" and "/a/b". The reader
-  /// is made for the writer of the deployment that has the topic, when that has been found, else
-  /// for one of another deployment of ours, else for any.
+  /// one sample at a time, until the observer is destroyed. Takes a name as DDS has it, else one as
+  /// ROS 2 has it: "chatter" is that topic of DDS where somebody writes it, else "rt/chatter", as
+  /// "/chatter" is. The reader is made for the writer of the deployment that has the topic, when
+  /// that has been found, else for one of another deployment of ours, else for any.
   virtual Expected<void> watch(const std::string& topic, Duration timeout,
                                std::function<void(const ObservedSample&)> on_sample) = 0;
-  /// No sample of it is handed on when this has returned. Not from `on_sample`.
+  /// Takes the name that was watched. No sample of it is handed on when this has returned. Not from
+  /// `on_sample`.
   virtual void unwatch(const std::string& topic) = 0;
+  /// Makes the reader of each watched topic anew that has writers and hears none of them, as after
+  /// a restart with another type or less QoS, as `watch` would make it now. Tells the DDS names of
+  /// these topics. Not from `on_sample`.
+  virtual std::vector<std::string> watch_again() = 0;
 };
 
 }  // namespace armature

@@ -66,6 +66,69 @@ TEST_F(FastDds, TheObserverReadsATopicOnlyAsLongAsItIsWatched) {
   EXPECT_TRUE(offered(before));
 }
 
+TEST_F(FastDds, AWatchedTopicThatComesBackWithLessQosOrAnotherTypeIsWatchedAgain) {
+  const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
+  std::mutex mutex;
+  std::string read;  // the type of the last sample
+  const auto note = [&](const ObservedSample& seen) {
+    const std::scoped_lock lock{mutex};
+    read = seen.type;
+  };
+  const auto offered = [&](RemoteWriter& writer, SamplePool& pool) {
+    return eventually([&] {
+      writer.offer(pool.loan());
+      const std::scoped_lock lock{mutex};
+      return read == pool.type().dds_name;
+    });
+  };
+  const MessageType& image = message_type<msg::Image>();
+  SamplePool images{image, 16};  // outlives its writer, which may still be sending
+  const auto watches_again = [&] {
+    std::vector<std::string> again;
+    EXPECT_TRUE(eventually([&] { return !(again = observer->watch_again()).empty(); }));
+    return again;
+  };
+  const std::vector<std::string> name{"rt/test/to_peer"};
+  {
+    const auto transport = make_transport();
+    const auto latched = transport->advertise({name[0], &type_, QosProfile::latched}).value();
+    ASSERT_TRUE(observer->watch("/test/to_peer", seconds(30), note));
+    EXPECT_TRUE(offered(*latched, pool_));
+    EXPECT_TRUE(observer->watch_again().empty()) << "its writer is heard";
+  }
+  {
+    const auto transport = make_transport();
+    const auto state = transport->advertise({name[0], &type_, QosProfile::state}).value();
+    EXPECT_EQ(watches_again(), name);
+    read.clear();
+    EXPECT_TRUE(offered(*state, pool_));
+  }
+  const auto transport = make_transport();
+  const auto other = transport->advertise({name[0], &image, QosProfile::state}).value();
+  EXPECT_EQ(watches_again(), name);
+  EXPECT_TRUE(offered(*other, images));
+  observer->unwatch("/test/to_peer");
+  EXPECT_TRUE(eventually([&] { return other->matched_readers() == 0; }));
+}
+
+TEST_F(FastDds, ATopicOfAnotherProgramIsReadByTheNameThatItHasInDds) {
+  const auto transport = make_transport();
+  const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
+  const auto writer = transport->advertise({"chatter", &type_, QosProfile::state}).value();
+  std::atomic<int> count{0};
+  const auto watch = [&](const char* name, Duration timeout) {
+    return observer->watch(name, timeout, [&](const ObservedSample&) { ++count; });
+  };
+  EXPECT_TRUE(watch("chatter", seconds(30)));
+  EXPECT_TRUE(eventually([&] {
+    writer->offer(sample(1));
+    return count > 0;
+  }));
+  EXPECT_FALSE(watch("/chatter", seconds(0.1))) << "that is rt/chatter";
+  observer->unwatch("chatter");
+  EXPECT_TRUE(eventually([&] { return writer->matched_readers() == 0; }));
+}
+
 TEST_F(FastDds, AnUnwrittenTopicIsRefusedByTheObserver) {
   const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
   const auto watched = observer->watch("/none", seconds(0.1), [](const ObservedSample&) {});

@@ -397,4 +397,11 @@ Expected<dds::Topic*> Participant::topic(const std::string& name, const std::str
   return made;
 }
 
+void Participant::drop_topic(const std::string& name) {
+  const std::scoped_lock lock{topics_mutex_};
+  const auto found = topics_.find(name);
+  if (found == topics_.end()) return;
+  if (participant_->delete_topic(found->second) == ReturnCode_t::RETCODE_OK) topics_.erase(found);
+}
+
 }  // namespace armature

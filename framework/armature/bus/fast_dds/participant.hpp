@@ -52,6 +52,8 @@ class Participant {
   /// The topic of that name and type, made when it is asked for the first time. Refused when the
   /// name is in use with another type.
   Expected<eprosima::fastdds::dds::Topic*> topic(const std::string& name, const std::string& type);
+  /// Frees the name for another type, unless a reader or a writer uses the topic still.
+  void drop_topic(const std::string& name);
   const GuidPrefix& guid_prefix() const { return guid_prefix_; }
   Discovery& discovery() { return discovery_; }
 

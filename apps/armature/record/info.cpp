@@ -34,7 +34,6 @@ std::string text_of(const Json& json) { return json_text(json); }
 
 /// A message that was recorded twice, by its writer's process and by a reader's, counts once.
 struct TopicCount {
-  std::string type;
   std::uint64_t messages = 0, doubled = 0;
   std::optional<std::uint64_t> bytes;  // a summary does not tell
   std::optional<double> hz;            // nor that: when the topic came first and last
@@ -46,7 +45,7 @@ struct Contents {
   std::string library;
   Duration length{0};
   std::uint64_t chunks = 0, packed_bytes = 0, unpacked_bytes = 0;
-  std::map<std::string, TopicCount> topics;
+  std::map<std::pair<std::string, std::string>, TopicCount> topics;  // by name and type
   std::vector<McapSummary::Attachment> attachments;
   std::vector<McapMetadata> metadata;
   std::uint64_t links = 0;  // of the chain of hashes, as the summary says
@@ -77,8 +76,7 @@ Contents contents_of(const McapSummary& summary) {
                     .head = summary.head};
   const std::vector<std::string> processes = processes_of(summary.metadata);
   for (const auto& [id, channel] : summary.channels) {
-    TopicCount& topic = contents.topics[channel.topic];
-    topic.type = type_of(channel, summary.schemas);
+    TopicCount& topic = contents.topics[{channel.topic, type_of(channel, summary.schemas)}];
     const auto messages = summary.messages.find(id);
     if (messages == summary.messages.end()) continue;
     (is_doubled(channel, processes) ? topic.doubled : topic.messages) += messages->second;
@@ -96,25 +94,26 @@ Contents contents_of(McapReader& reader, const std::vector<std::string>& process
     }
   };
   Contents contents{.is_all_read = true};
-  std::map<std::string, Times> sent;
+  std::map<std::pair<std::string, std::string>, Times> sent;
   Times arrived;
   bool is_first = true;
   while (const auto message = reader.next()) {
-    TopicCount& topic = contents.topics[message->channel->topic];
+    const std::pair key{message->channel->topic, type_of(*message->channel, reader.schemas())};
+    TopicCount& topic = contents.topics[key];
     arrived.add(message->log_time, std::exchange(is_first, false));
     if (is_doubled(*message->channel, processes)) {
       ++topic.doubled;
       continue;
     }
-    sent[message->channel->topic].add(message->publish_time, topic.messages++ == 0);
+    sent[key].add(message->publish_time, topic.messages++ == 0);
     topic.bytes = topic.bytes.value_or(0) + message->data.size();
   }
   for (const auto& [id, channel] : reader.channels()) {
-    contents.topics[channel.topic].type = type_of(channel, reader.schemas());
+    contents.topics[{channel.topic, type_of(channel, reader.schemas())}];
   }
-  for (auto& [name, topic] : contents.topics) {
+  for (auto& [key, topic] : contents.topics) {
     topic.bytes = topic.bytes.value_or(0);
-    topic.hz = rate(topic.messages, sent[name].last - sent[name].first);
+    topic.hz = rate(topic.messages, sent[key].last - sent[key].first);
   }
   contents.library = reader.library();
   contents.length = arrived.last - arrived.first;
@@ -130,7 +129,7 @@ Contents contents_of(McapReader& reader, const std::vector<std::string>& process
 
 std::uint64_t doubled_in(const Contents& contents) {
   std::uint64_t doubled = 0;
-  for (const auto& [name, topic] : contents.topics) doubled += topic.doubled;
+  for (const auto& [key, topic] : contents.topics) doubled += topic.doubled;
   return doubled;
 }
 
@@ -148,8 +147,8 @@ Json json_of(const Contents& contents, const std::vector<std::string>& problems)
             {"topics", Json::array()},
             {"attachments", Json::array()},
             {"metadata", Json::array()}};
-  for (const auto& [name, topic] : contents.topics) {
-    Json told{{"topic", name}, {"type", topic.type}, {"messages", topic.messages}};
+  for (const auto& [key, topic] : contents.topics) {
+    Json told{{"topic", key.first}, {"type", key.second}, {"messages", topic.messages}};
     if (topic.doubled > 0) told["doubled"] = topic.doubled;
     if (topic.bytes) told["bytes"] = *topic.bytes;
     json["topics"].push_back(std::move(told));
@@ -169,9 +168,9 @@ void print(const Contents& contents) {
             shown(contents.library), megabytes(contents.packed_bytes), contents.chunks,
             megabytes(contents.unpacked_bytes));
   std::size_t width = 0;
-  for (const auto& [name, topic] : contents.topics) width = std::max(width, name.size());
-  for (const auto& [name, topic] : contents.topics) {
-    print_out("  {:<{}}  {:<40} {:>9} messages", shown(name), width, shown(topic.type),
+  for (const auto& [key, topic] : contents.topics) width = std::max(width, key.first.size());
+  for (const auto& [key, topic] : contents.topics) {
+    print_out("  {:<{}}  {:<40} {:>9} messages", shown(key.first), width, shown(key.second),
               topic.messages);
     if (topic.hz) print_out(" {:>9.1f} Hz", *topic.hz);
     print_out("{}\n", topic.bytes ? fmt::format(" {:>14}", megabytes(*topic.bytes)) : "");

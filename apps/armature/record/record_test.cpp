@@ -387,6 +387,35 @@ TEST(Info, CountsAMessageOnceThatItsWriterAndAReaderHaveRecorded) {
   }
 }
 
+TEST(Info, TellsATopicThatHasTwoTypesOnceForEach) {
+  const RecordingFile file{"info"};
+  {
+    McapWriter writer{file.path(), {.chunk_bytes = 1024}};
+    int messages = 0;
+    for (const char* type : {"std_msgs/msg/Float64", "std_msgs/msg/String"}) {
+      const auto schema =
+          writer.add(McapSchema{.name = type, .encoding = "ros2msg", .data = "# as there\n"});
+      const auto channel =
+          writer.add(McapChannel{.schema_id = schema, .topic = "/a", .message_encoding = "cdr"});
+      messages += 10;
+      for (int i = 0; i < messages; ++i) {
+        const std::string text = payload(1);
+        writer.write(channel, static_cast<std::uint32_t>(i), Time{i}, Time{i},
+                     std::as_bytes(std::span{text}));
+      }
+    }
+    writer.close();
+  }
+  for (const bool verify : {false, true}) {
+    const nlohmann::json topics = info_of(file.path(), verify)["topics"];
+    ASSERT_EQ(topics.size(), 2U) << topics.dump(1);
+    EXPECT_EQ(topics[0]["type"], "std_msgs/msg/Float64");
+    EXPECT_EQ(topics[0]["messages"], 10);
+    EXPECT_EQ(topics[1]["topic"], "/a");
+    EXPECT_EQ(topics[1]["messages"], 20);
+  }
+}
+
 TEST(Info, SaysThatAFileIsWholeAndHowOftenATopicCameOnlyWhenItHasReadAllOfIt) {
   const RecordingFile file{"info"};
   write_part(file.path(), "main", 10);

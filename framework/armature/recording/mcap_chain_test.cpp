@@ -6,6 +6,8 @@
 #include <sys/resource.h>
 
 #include <chrono>
+#include <cstring>
+#include <functional>
 #include <random>
 #include <stdexcept>
 
@@ -261,6 +263,64 @@ TEST(Summary, TellsWhatAllOfTheFileTellsAndReadsNothingElse) {
   EXPECT_EQ(summary->metadata[0].values.at("seed"), "1");
   EXPECT_EQ(summary->links, writer.links());
   EXPECT_EQ(summary->head, to_hex(writer.head()));
+}
+
+/// CRC-32 as MCAP has it.
+std::uint32_t crc_of(const std::string& bytes) {
+  std::uint32_t crc = ~std::uint32_t{0};
+  for (const char byte : bytes) {
+    crc ^= static_cast<unsigned char>(byte);
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1U) ^ ((crc & 1U) != 0 ? 0xEDB88320U : 0U);
+  }
+  return ~crc;
+}
+
+/// The same file with a record of its summary made anew, or left out: `edit` returns none.
+std::string with_summary(const std::string& file,
+                         const std::function<std::string(mcap::Op, const std::string&)>& edit) {
+  constexpr std::size_t kHead = 9, kDataEnd = 13, kNumber = 8;
+  const std::size_t begin = places_of(mcap::Op::data_end, file).front() + kDataEnd;
+  const std::size_t end = places_of(mcap::Op::footer, file).back();
+  std::string summary;
+  for (std::size_t at = begin; at < end;) {
+    std::uint64_t size = 0;
+    std::memcpy(&size, &file[at + 1], sizeof size);
+    const auto op = static_cast<mcap::Op>(file[at]);
+    if (op != mcap::Op::summary_offset) summary += edit(op, file.substr(at, kHead + size));
+    at += kHead + size;
+  }
+  summary += file.substr(end, kHead + kNumber) + std::string(kNumber, '\0');
+  return file.substr(0, begin) + summary + RawMcap::number(crc_of(summary)) +
+         std::string{mcap::kMagic};
+}
+
+TEST(Summary, IsNotEnoughWithoutTheCountsAndChannelsThatAWriterMayLeaveOut) {
+  const RecordingFile file{"summary"};
+  {
+    McapWriter writer{file.path(), {.chunk_bytes = 2048, .chain = false}};
+    write_all_but_the_end(writer, 200);
+    writer.close();
+  }
+  const std::string whole = file.bytes();
+  const auto has_enough = [&](const auto& edit) {
+    file.replace(with_summary(whole, edit));
+    McapReader reader{file.path()};
+    while (reader.next()) continue;
+    EXPECT_TRUE(reader.problems().empty()) << "it is a file as any";
+    return read_summary(file.path()).has_value();
+  };
+  EXPECT_TRUE(has_enough([](mcap::Op, const std::string& record) { return record; }));
+  for (const mcap::Op left_out : {mcap::Op::schema, mcap::Op::channel, mcap::Op::statistics}) {
+    EXPECT_FALSE(has_enough([&](mcap::Op op, const std::string& record) {
+      return op == left_out ? std::string{} : record;
+    })) << static_cast<int>(left_out);
+  }
+  EXPECT_FALSE(has_enough([](mcap::Op op, const std::string& record) {
+    constexpr std::size_t kHead = 9, kBeforeCounts = 42;
+    if (op != mcap::Op::statistics) return record;
+    return RawMcap::record(static_cast<std::uint8_t>(op),
+                           record.substr(kHead, kBeforeCounts) + RawMcap::number(0U));
+  })) << "no counts by channel";
 }
 
 TEST(Summary, IsNotBelievedWhenAByteOfItIsChangedOrMissing) {

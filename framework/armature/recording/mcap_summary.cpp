@@ -39,10 +39,16 @@ std::optional<View> summary_of(View file) {
   return file.subspan(start, footer_at - start);
 }
 
-/// Returns how many chunks there are.
-std::uint32_t read_statistics(McapCursor record, McapSummary& summary) {
-  record.take(8 + 2 + 4 + 4 + 4);  // messages, schemas, channels, attachments, metadata
-  const auto chunks = record.number<std::uint32_t>();
+struct Statistics {
+  std::uint64_t messages = 0;
+  std::uint32_t chunks = 0;
+};
+
+Statistics read_statistics(McapCursor record, McapSummary& summary) {
+  Statistics statistics;
+  statistics.messages = record.number<std::uint64_t>();
+  record.take(2 + 4 + 4 + 4);  // schemas, channels, attachments, metadata
+  statistics.chunks = record.number<std::uint32_t>();
   summary.first = record.time();
   summary.last = record.time();
   McapCursor counts{record.take(record.number<std::uint32_t>())};
@@ -50,7 +56,21 @@ std::uint32_t read_statistics(McapCursor record, McapSummary& summary) {
     const auto channel = counts.number<std::uint16_t>();
     summary.messages[channel] = counts.number<std::uint64_t>();
   }
-  return chunks;
+  return statistics;
+}
+
+/// Whether the summary counts all messages by channel, and has these channels and their schemas: a
+/// writer may leave them out.
+bool counts_all(const McapSummary& summary, std::uint64_t messages) {
+  std::uint64_t counted = 0;
+  for (const auto& [id, count] : summary.messages) {
+    counted += count;
+    const auto channel = summary.channels.find(id);
+    if (channel == summary.channels.end()) return false;
+    const std::uint16_t schema = channel->second.schema_id;  // 0: it has none
+    if (schema != 0 && !summary.schemas.contains(schema)) return false;
+  }
+  return counted == messages;
 }
 
 void read_chunk_index(McapCursor record, McapSummary& summary) {
@@ -101,7 +121,7 @@ std::optional<McapSummary> read_summary(const std::filesystem::path& file) {
     header.body.text();
     summary.library = header.body.text();
   }
-  std::optional<std::uint32_t> chunks;
+  std::optional<Statistics> statistics;
   for (View left = *records; !left.empty();) {
     McapRecord record = next_record(left);
     if (record.size == 0) return std::nullopt;
@@ -122,14 +142,16 @@ std::optional<McapSummary> read_summary(const std::filesystem::path& file) {
         summary.channels[channel.id] = std::move(channel);
         break;
       }
-      case Op::statistics: chunks = read_statistics(record.body, summary); break;
+      case Op::statistics: statistics = read_statistics(record.body, summary); break;
       case Op::chunk_index: read_chunk_index(record.body, summary); break;
       case Op::attachment_index: read_attachment_index(record.body, summary); break;
       case Op::metadata_index: read_metadata_index(record.body, bytes, summary); break;
       default: break;
     }
   }
-  if (chunks != summary.chunks) return std::nullopt;
+  const bool is_complete = statistics && statistics->chunks == summary.chunks &&
+                           counts_all(summary, statistics->messages);
+  if (!is_complete) return std::nullopt;
   return summary;
 }
 

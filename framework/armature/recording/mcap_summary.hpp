@@ -32,8 +32,9 @@ struct McapSummary {
 
 /// Reads no more of the file than its summary and the metadata, however long it is; whether the
 /// rest is as it was written is not looked at. Nothing: it has no summary, or one without
-/// statistics or indexes of its chunks, or whose checksum is not right. Throws std::runtime_error
-/// for a file that cannot be read or is no MCAP file.
+/// statistics, counts of messages by channel, their channels and schemas or indexes of its chunks,
+/// or whose checksum is not right. Throws std::runtime_error for a file that cannot be read or is
+/// no MCAP file.
 std::optional<McapSummary> read_summary(const std::filesystem::path& file);
 
 }  // namespace armature

@@ -11,10 +11,12 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "armature/bus/topic_name.hpp"
 #include "armature/bus/transport.hpp"
+#include "armature/config/problems.hpp"
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_summary.hpp"
 #include "armature/recording/recorded_processes.hpp"
@@ -50,6 +52,19 @@ void check_from(const PublishOptions& options) {
                                   options.file.string(), length_s, options.from_s));
 }
 
+/// What the messages of a channel are, whose schema has the name `schema`; nullptr: unknown. Only
+/// Armature writes the name of DDS; others write that of ROS 2, "std_msgs/msg/Float64".
+const MessageType* type_of(const McapChannel& channel, std::string schema) {
+  const auto dds_type = channel.metadata.find("dds_type");
+  if (dds_type != channel.metadata.end()) return find_message_type(dds_type->second);
+  if (channel.message_encoding != "cdr") return nullptr;
+  constexpr std::string_view kMiddle = "/msg/";
+  if (const std::size_t at = schema.find(kMiddle); at != std::string::npos) {
+    schema.replace(at, kMiddle.size(), "/");
+  }
+  return find_message_type(schema);
+}
+
 class Player {
  public:
   explicit Player(const PublishOptions& options)
@@ -72,12 +87,13 @@ class Player {
     while (const auto message = reader.next()) {
       if (!first) first = message->log_time;
       if (is_doubled(*message->channel, processes_)) continue;
-      Topic* topic = topic_of(*message->channel);
+      Topic* topic = topic_of(*message->channel, reader);
       if (!topic) continue;
       const double at_s = to_seconds(message->log_time - *first) - options_.from_s;
       // What is kept for those who come later counts from the beginning of the recording.
       if (at_s < 0 && !topic->is_latched) continue;
       const Time due = start + seconds(at_s / options_.rate);
+      tell_gap(due - monotonic_now());
       if (due > monotonic_now() && !wait_until(due)) return;
       if (left() || is_over()) return;
       publish(*topic, message->data);
@@ -85,33 +101,55 @@ class Player {
     for (const std::string& problem : reader.problems()) problems_.insert(problem);
   }
 
+  /// Whether all messages of known types were published that came up.
+  bool is_whole() const { return broken_.empty() && !is_partial_; }
   bool is_over() const {
     return options_.timeout_s > 0 && monotonic_now() - begin_ > seconds(options_.timeout_s);
   }
   std::uint64_t messages() const { return messages_; }
-  std::size_t topics() const { return topics_.size() - unknown_.size(); }
-  const std::set<std::string>& unknown() const { return unknown_; }
+  std::size_t topics() const { return topics_.size(); }
+  /// What is not published, and why.
+  const std::set<std::string>& left_out() const { return left_out_; }
+  /// Messages that are not what their type says, by topic.
+  const std::map<std::string, std::uint64_t>& broken() const { return broken_; }
   const std::set<std::string>& problems() const { return problems_; }
 
  private:
   struct Topic {
+    std::string name;
     bool is_latched = false;
     std::unique_ptr<SamplePool> pool;  // outlives the writer, which may still be sending
     std::unique_ptr<RemoteWriter> writer;
   };
 
-  /// Null: of a type that is not known here.
-  Topic* topic_of(const McapChannel& channel) {
-    const auto [place, is_new] = topics_.try_emplace(channel.topic);
-    Topic& topic = place->second;
-    if (!is_new) return topic.writer ? &topic : nullptr;
-    const auto dds_type = channel.metadata.find("dds_type");
-    const MessageType* type =
-        dds_type == channel.metadata.end() ? nullptr : find_message_type(dds_type->second);
+  /// Null: it is left out.
+  Topic* topic_of(const McapChannel& channel, const McapReader& reader) {
+    const auto [known, is_new] = by_channel_.try_emplace(channel.id, nullptr);
+    if (is_new) known->second = find_topic(channel, reader);
+    return known->second;
+  }
+
+  Topic* find_topic(const McapChannel& channel, const McapReader& reader) {
+    const auto schema = reader.schemas().find(channel.schema_id);
+    const std::string said = schema == reader.schemas().end() ? "" : schema->second.name;
+    const MessageType* type = type_of(channel, said);
     if (!type) {
-      unknown_.insert(channel.topic);
+      left_out_.insert(
+          fmt::format("{} is of the type {}, which is not known here, and is not "
+                      "published; --monitor shows it",
+                      config::in_quotes(channel.topic), config::in_quotes(said)));
       return nullptr;
     }
+    if (const auto place = topics_.find(channel.topic); place != topics_.end()) {
+      if (&place->second.pool->type() == type) return &place->second;
+      left_out_.insert(fmt::format("{} has messages of two types: those of {} are not published",
+                                   config::in_quotes(channel.topic),
+                                   config::in_quotes(type->ros_name)));
+      is_partial_ = true;
+      return nullptr;
+    }
+    Topic& topic = topics_[channel.topic];
+    topic.name = channel.topic;
     const QosProfile profile = replayed_profile(channel);
     topic.is_latched = settings(profile).transient_local;
     topic.pool = std::make_unique<SamplePool>(*type, 16);
@@ -124,10 +162,22 @@ class Player {
 
   void publish(Topic& topic, std::span<const std::byte> cdr) {
     SampleRef sample = topic.pool->loan();
-    if (!topic.pool->type().decode(cdr, sample.mutable_message())) return;
+    if (!topic.pool->type().decode(cdr, sample.mutable_message())) {
+      ++broken_[topic.name];
+      return;
+    }
     sample.mutable_info().published = clock_.now();
     topic.writer->offer(sample);
     ++messages_;
+  }
+
+  static void tell_gap(Duration left) {
+    constexpr double kLong_s = 5;
+    if (to_seconds(left) < kLong_s) return;
+    fmt::print(stderr,
+               "armature: the next message comes in {:.0f} s: none was recorded for that long; "
+               "--rate makes it shorter\n",
+               to_seconds(left));
   }
 
   bool wait_until(Time due) const {
@@ -146,8 +196,11 @@ class Player {
   PluginRegistry plugins_;
   PluginPtr<Transport> transport_;
   std::map<std::string, Topic> topics_;
+  std::map<std::uint16_t, Topic*> by_channel_;
   std::uint64_t messages_ = 0;
-  std::set<std::string> unknown_, problems_;
+  std::map<std::string, std::uint64_t> broken_;
+  std::set<std::string> left_out_, problems_;
+  bool is_partial_ = false;
 };
 
 }  // namespace
@@ -159,13 +212,15 @@ int publish_recording(const PublishOptions& options) {
   do {
     player.play();
   } while (options.loop && player.messages() > 0 && !left() && !player.is_over());
-  for (const std::string& topic : player.unknown()) {
-    fmt::print(stderr, "armature: '{}' is of a type that is not known here\n", topic);
+  for (const std::string& text : player.left_out()) fmt::print(stderr, "armature: {}\n", text);
+  for (const auto& [topic, count] : player.broken()) {
+    fmt::print(stderr, "armature: {} messages of {} are not what their type says\n", count,
+               config::in_quotes(topic));
   }
   for (const std::string& problem : player.problems()) {
     fmt::print(stderr, "armature: '{}': {}\n", options.file.string(), problem);
   }
-  if (player.messages() == 0 && player.unknown().empty() && !left()) {
+  if (player.messages() == 0 && player.left_out().empty() && player.broken().empty() && !left()) {
     fmt::print(stderr, "armature: '{}' has no messages to be published\n", options.file.string());
   }
   if (options.json) {
@@ -176,7 +231,7 @@ int publish_recording(const PublishOptions& options) {
     print_out("{} messages of {} topics under {}\n", player.messages(), player.topics(),
               options.prefix);
   }
-  return player.messages() > 0 ? kOk : kFailed;
+  return player.messages() > 0 && player.is_whole() ? kOk : kFailed;
 }
 
 }  // namespace armature

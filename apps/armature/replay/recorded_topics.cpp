@@ -28,6 +28,11 @@ std::size_t kept_of(const McapChannel& channel) {
   return settings(replayed_profile(channel)).transient_local ? kLatched : 1;
 }
 
+std::string type_of(const McapChannel& channel, const McapReader& reader) {
+  const auto schema = reader.schemas().find(channel.schema_id);
+  return schema == reader.schemas().end() ? "" : schema->second.name;
+}
+
 }  // namespace
 
 RecordedTopics::RecordedTopics(const std::filesystem::path& file, const Options& options)
@@ -62,14 +67,31 @@ void RecordedTopics::read_all() {
     chunks_.back().topics.insert(message->channel->topic);
   }
   problems_ = reader_.problems();
+  for (const auto& [id, channel] : reader_.channels()) {
+    if (!is_of_another_type(channel)) continue;
+    problems_.push_back(
+        fmt::format("{} has messages of two types: it is shown as {}, and those of {} are not",
+                    config::in_quotes(channel.topic), config::in_quotes(types_.at(channel.topic)),
+                    config::in_quotes(type_of(channel, reader_))));
+  }
 }
 
 std::optional<McapMessage> RecordedTopics::read() {
   std::optional<McapMessage> message;
   do {
     message = reader_.next();
-  } while (message && is_doubled(*message->channel, processes_));
+  } while (message &&
+           (is_doubled(*message->channel, processes_) || is_of_another_type(*message->channel)));
   return message;
+}
+
+bool RecordedTopics::is_of_another_type(const McapChannel& channel) {
+  const auto [place, is_new] = is_of_another_type_.try_emplace(channel.id, false);
+  if (is_new) {
+    const std::string type = type_of(channel, reader_);
+    place->second = types_.try_emplace(channel.topic, type).first->second != type;
+  }
+  return place->second;
 }
 
 void RecordedTopics::add_topics() {
@@ -77,7 +99,7 @@ void RecordedTopics::add_topics() {
     const auto schema = reader_.schemas().find(channel.schema_id);
     const bool is_known = channel.message_encoding == "cdr" && schema != reader_.schemas().end() &&
                           schema->second.encoding == "ros2msg";
-    if (!is_known) continue;
+    if (!is_known || is_of_another_type(channel)) continue;
     topics_.try_emplace(
         channel.topic,
         RecordedTopic{.topic = {.name = channel.topic, .type = {}, .keeps = kept_of(channel)},

@@ -73,6 +73,8 @@ class RecordedTopics final : public TopicSource, public Playback {
   /// The next message of the file; of what is recorded twice, in a joined recording, the one that
   /// its writer has recorded.
   std::optional<McapMessage> read();
+  /// A topic is shown as the type of its first message.
+  bool is_of_another_type(const McapChannel& channel);
   void add_topics();
   /// Hands on what was written last of `names` until `time`.
   void tell_past(const std::set<std::string>& names, Time time);
@@ -94,6 +96,8 @@ class RecordedTopics final : public TopicSource, public Playback {
   const bool loops_;
   std::vector<Chunk> chunks_;
   std::map<std::string, RecordedTopic> topics_;
+  std::map<std::string, std::string> types_;          // of topics
+  std::map<std::uint16_t, bool> is_of_another_type_;  // by channel
   std::vector<std::string> problems_;
   Time first_, last_, start_;
 

@@ -76,6 +76,23 @@ void write_joined(const std::filesystem::path& path) {
   writer.close();
 }
 
+/// One topic as two types, each three times.
+void write_two_types(const std::filesystem::path& path) {
+  McapWriter writer{path, {}};
+  int number = 0;
+  for (const char* type : {"std_msgs/msg/String", "std_msgs/msg/Int32"}) {
+    const auto schema =
+        writer.add(McapSchema{.name = type, .encoding = "ros2msg", .data = "# as there\n"});
+    const auto channel =
+        writer.add(McapChannel{.schema_id = schema, .topic = "/both", .message_encoding = "cdr"});
+    for (int i = 0; i < 3; ++i, ++number) {
+      writer.write(channel, 0, time_of(number), time_of(number),
+                   std::as_bytes(std::span{&number, std::size_t{1}}));
+    }
+  }
+  writer.close();
+}
+
 class RecordedTopicsTest : public testing::Test {
  protected:
   RecordedTopicsTest() { write(file_.path()); }
@@ -225,6 +242,19 @@ TEST_F(RecordedTopicsTest, ALoopBeginsAgainWhereItBegan) {
   EXPECT_TRUE(recording_->advance().jumped);
   EXPECT_THAT(told("/fast"), ElementsAre(100));
   EXPECT_EQ(recording_->state().status, Playback::Status::playing);
+}
+
+TEST_F(RecordedTopicsTest, ATopicWithTwoTypesIsShownAsTheFirstOneAndTheOtherOneIsNamed) {
+  write_two_types(file_.path());
+  open({.rate = 10});
+  ASSERT_EQ(recording_->topics().size(), 1U);
+  EXPECT_EQ(recording_->schema_of(recording_->topics()[0]).name, "std_msgs/msg/String");
+  EXPECT_THAT(recording_->problems(),
+              ElementsAre(HasSubstr("'/both' has messages of two types: it is shown as "
+                                    "'std_msgs/msg/String', and those of 'std_msgs/msg/Int32'")));
+  watch("/both");
+  play_to_the_end();
+  EXPECT_THAT(told("/both"), ElementsAre(0, 1, 2));
 }
 
 TEST_F(RecordedTopicsTest, RefusesABeginningBehindItsEnd) {

@@ -40,6 +40,18 @@ bool lock(int descriptor) {
   return false;
 }
 
+/// Nothing of what is nested deeper than a report is: what copies JSON calls itself at each level.
+Json parsed(const std::string& line) {
+  constexpr int kDeepest = 32;
+  bool is_deep = false;
+  const auto leave_out_deep = [&](int depth, Json::parse_event_t, const Json&) {
+    is_deep = is_deep || depth > kDeepest;
+    return depth <= kDeepest;
+  };
+  Json json = Json::parse(line, leave_out_deep, false);
+  return is_deep ? Json{} : json;
+}
+
 }  // namespace
 
 FinishedRuns::FinishedRuns(std::optional<std::filesystem::path> file) : file_{std::move(file)} {
@@ -67,7 +79,7 @@ void FinishedRuns::read() {
   for (std::string line; std::getline(in, line);) {
     ++number;
     const bool is_torn = in.eof();  // its end of line is missing
-    const Json read = Json::parse(line, nullptr, false);
+    const Json read = parsed(line);
     const bool is_run = read.is_object() && read.contains("seed") && read.contains("report") &&
                         read.contains("fingerprint") && read["fingerprint"].is_string() &&
                         read["seed"].is_number_unsigned() && read["report"].is_object();

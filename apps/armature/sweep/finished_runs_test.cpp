@@ -44,6 +44,14 @@ TEST_F(FinishedRunsTest, ALineThatWasCutAnywhereIsTakenAwayAndItsRunIsToBeDone) 
   }
 }
 
+TEST_F(FinishedRunsTest, AFileWhoseReportsAreNestedDeeplyIsOfSomethingElse) {
+  const std::string deep = std::string(400'000, '[') + std::string(400'000, ']');
+  const std::string line = R"({"fingerprint": "abc", "seed": 1, "report": {"a": )" + deep + "}}\n";
+  write(line);
+  EXPECT_THROW(FinishedRuns{file_}, std::runtime_error);
+  EXPECT_EQ(text(), line);
+}
+
 TEST_F(FinishedRunsTest, AFileOfSomethingElseIsLeftAlone) {
   for (const char* other : {"important notes", "{\"fingers\": 5", "{\"finge\n"}) {
     write(other);

@@ -114,7 +114,8 @@ int measure_topic(TopicMeasure what, const TopicOptions& options) {
                  .bytes = sample.cdr.size(),
                  .delay_s = delay ? delay_of(sample, options.topic) : 0,
                  .lost_before = sample.lost_before,
-                 .writer = sample.writer ? sample.writer->guid : std::array<std::uint8_t, 16>{}});
+                 .writer = sample.writer ? sample.writer->guid : std::array<std::uint8_t, 16>{},
+                 .arrived = monotonic_now()});
       count.add();
     } catch (const std::runtime_error& error) {
       wrong = error.what();

@@ -34,6 +34,7 @@ struct MeasuredSample {
   double delay_s = 0;  // from its stamp to its arrival
   std::uint64_t lost_before = 0;
   std::array<std::uint8_t, 16> writer = {};  // 0: not known
+  Time arrived = {};                         // by a clock that does not step
 };
 
 /// How a topic's samples came.
@@ -70,22 +71,41 @@ struct TopicFigures {
 class TopicMeter {
  public:
   void add(const MeasuredSample& sample) {
-    const auto [last, is_first] = last_.try_emplace(sample.writer, sample.source);
-    const auto interval = is_first ? std::nullopt : std::optional{sample.source - last->second};
+    const auto [last, is_first] =
+        last_.try_emplace(sample.writer, Last{sample.source, behind(sample)});
+    const auto interval =
+        is_first ? std::nullopt : std::optional{sample.source - last->second.source};
+    const Time source = sample.source + last->second.behind;
     const auto elapsed =
-        latest_ ? std::optional{std::max(sample.source - *latest_, Duration{0})} : std::nullopt;
+        latest_ ? std::optional{std::max(source - *latest_, Duration{0})} : std::nullopt;
     all_.add(sample, interval, elapsed);
     recent_.add(sample, interval, elapsed);
-    last->second = sample.source;
-    latest_ = std::max(sample.source, latest_.value_or(sample.source));
+    last->second.source = sample.source;
+    if (!latest_ || source > *latest_) {
+      latest_ = source;
+      latest_arrived_ = sample.arrived;
+    }
   }
   const TopicFigures& all() const { return all_; }
   /// Since the last call; the interval that ends with its first sample belongs to it.
   TopicFigures take_recent() { return std::exchange(recent_, TopicFigures{}); }
 
  private:
-  std::map<std::array<std::uint8_t, 16>, Time> last_;  // by writer
-  std::optional<Time> latest_;                         // of all
+  struct Last {
+    Time source;
+    Duration behind;  // of the clock of the first writer
+  };
+  /// By how much the clock of a writer whose first sample this is is behind that of the first one.
+  Duration behind(const MeasuredSample& sample) const {
+    constexpr Duration kOneClock = seconds(1);
+    if (!latest_) return Duration{0};
+    const Duration behind = *latest_ + (sample.arrived - latest_arrived_) - sample.source;
+    return behind < kOneClock && -behind < kOneClock ? Duration{0} : behind;
+  }
+
+  std::map<std::array<std::uint8_t, 16>, Last> last_;  // by writer
+  std::optional<Time> latest_;                         // of all, by the clock of the first writer
+  Time latest_arrived_;
   TopicFigures all_, recent_;
 };
 

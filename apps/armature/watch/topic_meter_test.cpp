@@ -49,6 +49,24 @@ TEST(TopicMeter, TellsTheIntervalsOfEachOfTwoWritersAndTheRateOfBoth) {
   EXPECT_NEAR(meter.all().bytes_per_s(), 20'000, 200);
 }
 
+TEST(TopicMeter, TellsTheRateOfWritersWhoseClocksAreAnHourApart) {
+  for (const std::int64_t apart_ms : {3'600'000, -3'600'000}) {
+    TopicMeter meter;
+    for (std::int64_t t = 0; t <= 10'000; t += 50) {
+      for (const std::uint8_t writer : {std::uint8_t{1}, std::uint8_t{2}}) {
+        if (writer == 2 && t < 5000) continue;  // it comes later
+        MeasuredSample sample = sample_at(t + (writer == 2 ? apart_ms : 0));
+        sample.writer = {writer};
+        sample.arrived = Time{t * 1'000'000};
+        meter.add(sample);
+      }
+    }
+    EXPECT_NEAR(meter.all().elapsed_s, 10, 0.1) << apart_ms;
+    EXPECT_NEAR(meter.all().hz(), 30, 0.5) << apart_ms;
+    EXPECT_DOUBLE_EQ(meter.all().interval_s.greatest, 0.050);
+  }
+}
+
 TEST(TopicMeter, HasNoRateBeforeTheSecondSampleOfAWriter) {
   TopicMeter meter;
   meter.add({.source = Time{0}, .writer = {1}});

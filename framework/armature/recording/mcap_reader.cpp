@@ -186,7 +186,8 @@ void McapReader::open_chunk(McapCursor record, std::uint64_t at) {
   } else if (compression == "lz4") {
     throw std::runtime_error(
         fmt::format("'{}' cannot be read: {} is packed with '{}', only zstd "
-                    "is known here",
+                    "is known here; the program mcap of mcap.dev makes a copy: mcap compress"
+                    " FILE -o zstd.mcap",
                     name_, chunk, compression));
   } else if (!compression.empty()) {
     return note(chunk + " is packed with what the format does not know");

@@ -19,11 +19,11 @@
 namespace armature {
 namespace {
 
-constexpr std::size_t kLongestText = 1U << 20;  // [byte] of what a client says
-constexpr const char* kNoProtocol = "http-only";
-constexpr std::size_t kPagePart = 32U << 10;  // [byte] of a page, at a time
-constexpr int kPagePatience_s = 20;           // for who reads no part of it
-constexpr int kFarewell_s = 2;                // to take the reason why it is closed
+constexpr std::size_t kLongestText = 1U << 20;      // [byte] of what a client says
+constexpr const char* kNoProtocol = "no protocol";  // none that a client offers has a blank
+constexpr std::size_t kPagePart = 32U << 10;        // [byte] of a page, at a time
+constexpr int kPagePatience_s = 20;                 // for who reads no part of it
+constexpr int kFarewell_s = 2;                      // to take the reason why it is closed
 constexpr std::string_view kFarewell = "too little of what was sent is read";
 
 std::string header_of(lws* connection, lws_token_indexes header) {

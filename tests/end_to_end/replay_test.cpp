@@ -542,6 +542,40 @@ TEST_F(Replay, WhatCannotBePublishedIsToldWithTheReason) {
   EXPECT_THAT(empty.err, HasSubstr("empty.mcap' has no messages to be published"));
 }
 
+TEST_F(Replay, OfARecordingOfAnotherProgramAllIsPublishedWhoseTypeIsKnownAndTheRestIsNamed) {
+  {
+    McapWriter writer{file(), {}};
+    const auto channel_of = [&](const char* topic, const char* type) {
+      const auto schema =
+          writer.add(McapSchema{.name = type, .encoding = "ros2msg", .data = "# as there\n"});
+      return writer.add(
+          McapChannel{.schema_id = schema, .topic = topic, .message_encoding = "cdr"});
+    };
+    const auto write = [&](std::uint16_t channel, std::int64_t second, std::size_t bytes) {
+      std::vector<std::byte> cdr(bytes);
+      cdr[1] = std::byte{1};  // little endian
+      writer.write(channel, 1, Time{second * 1'000'000'000}, Time{}, cdr);
+    };
+    constexpr std::size_t kFloat64 = 4 + 8, kNothing = 4;
+    const auto value = channel_of("/value", "std_msgs/msg/Float64");
+    for (int i = 0; i < 3; ++i) write(value, 0, kFloat64);
+    write(value, 0, kNothing);
+    write(channel_of("/value", "std_msgs/msg/String"), 0, kFloat64);
+    write(channel_of("/a\x1b[31m", "foo/msg/Bar"), 0, kFloat64);
+    write(value, 3600, kFloat64);
+    writer.close();
+  }
+  const CommandResult played = run_command({armature(), "replay", file(), "--timeout", "3",
+                                            "--domain", std::to_string(unique_dds_domain())});
+  EXPECT_EQ(played.exit_code, 1) << "some were left out";
+  EXPECT_THAT(played.out, HasSubstr("3 messages of 1 topics under /replay"));
+  EXPECT_THAT(played.err, HasSubstr("'/value' has messages of two types: those of "));
+  EXPECT_THAT(played.err, HasSubstr("1 messages of '/value' are not what their type says"));
+  EXPECT_THAT(played.err, HasSubstr("is of the type 'foo/msg/Bar', which is not known here"));
+  EXPECT_THAT(played.err, testing::Not(HasSubstr("\x1b"))) << "nothing that a terminal obeys";
+  EXPECT_THAT(played.err, HasSubstr("the next message comes in 3600 s"));
+}
+
 TEST_F(Replay, FilesOfDifferentRunsAreRefused) {
   record_needle();
   fs::rename(file(), file("first.mcap"));

@@ -182,7 +182,7 @@ void tell_status_to_black_box(const std::string& status, Deployment& deployment)
 
 int run_main(const RunOptions& options, const Process& process, Deployment& deployment,
              PluginRegistry& plugins, Console& console, WatchedEnd& end) {
-  check_recordings(deployment.config(), process.name, process.origin.start);
+  check_recordings(deployment.config(), process.origin.start);
   ChildProcesses children;
   start_processes(children, options, deployment.config(), process.domain, process.origin);
   deployment.connect(plugins, process.domain, process.origin.run);
@@ -226,7 +226,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
 
 int run_other(const RunOptions& options, const Process& process, Deployment& deployment,
               PluginRegistry& plugins, Console& console, ChildWatch& watch, WatchedEnd& end) {
-  check_recordings(deployment.config(), process.name, process.origin.start);
+  check_recording(deployment.config(), process.name, process.origin.start);
   deployment.connect(plugins, process.domain, process.origin.run);
   begin_recording(deployment, process.name, process.origin.start);
   watch.on_clock([&](Duration offset) { deployment.follow_clock(offset); });

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <exception>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <system_error>
@@ -63,6 +64,23 @@ Time named_after(const DeploymentConfig& config, Time time) {
   return config.simulated ? SystemClock{}.now() : time;
 }
 
+void check_files(const DeploymentConfig& config, Time start,
+                 const std::function<bool(const std::string& process)>& is_meant) {
+  if (!config.record || config.record->around_faults) return;
+  config::Problems problems;
+  for (const std::string& name : config.processes()) {
+    if (!is_meant(name)) continue;
+    const std::filesystem::path file = config.record->file_of(name, named_after(config, start));
+    std::error_code none;
+    if (std::filesystem::file_size(file, none) == 0 || none) continue;
+    problems.add(config.record->origin,
+                 fmt::format("the recording '{}' is there already: move it, or let the name say "
+                             "the time, run-%Y%m%d-%H%M%S.mcap",
+                             file.string()));
+  }
+  problems.throw_if_any();
+}
+
 /// Names what stays on other hosts, which are not reached from here, and what joins it.
 void tell_other_hosts(const std::filesystem::path& recording, const DeploymentConfig& config,
                       Console& console) {
@@ -84,23 +102,13 @@ void tell_other_hosts(const std::filesystem::path& recording, const DeploymentCo
 
 }  // namespace
 
-void check_recordings(const DeploymentConfig& config, const std::string& process, Time start) {
-  if (!config.record || config.record->around_faults) return;
-  config::Problems problems;
-  for (const std::string& name : config.processes()) {
-    // Where the main process has looked already, other processes may have begun theirs.
-    const bool looked_for =
-        process == kMainProcess ? config.host_of(name) == kMainHost : name == process;
-    if (!looked_for) continue;
-    const std::filesystem::path file = config.record->file_of(name, named_after(config, start));
-    std::error_code none;
-    if (std::filesystem::file_size(file, none) == 0 || none) continue;
-    problems.add(config.record->origin,
-                 fmt::format("the recording '{}' is there already: move it, or let the name say "
-                             "the time, run-%Y%m%d-%H%M%S.mcap",
-                             file.string()));
-  }
-  problems.throw_if_any();
+void check_recordings(const DeploymentConfig& config, Time start) {
+  check_files(config, start,
+              [&](const std::string& process) { return config.host_of(process) == kMainHost; });
+}
+
+void check_recording(const DeploymentConfig& config, const std::string& process, Time start) {
+  check_files(config, start, [&](const std::string& name) { return name == process; });
 }
 
 std::optional<std::filesystem::path> begin_recording(Deployment& deployment,

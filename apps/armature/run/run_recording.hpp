@@ -14,9 +14,11 @@ namespace armature {
 // The recording of a run, which the runtime writes: where, and what becomes of it: the page of its
 // report, and one file where every process has written its own.
 
-/// Throws where `process` would write over a recording that is there; the main process looks for
-/// those of its whole host. `start`: of the run, by the system's clock.
-void check_recordings(const DeploymentConfig& config, const std::string& process, Time start);
+/// Throws where a process of the main host would write over a recording that is there. `start`: of
+/// the run, by the system's clock.
+void check_recordings(const DeploymentConfig& config, Time start);
+/// The same of one process.
+void check_recording(const DeploymentConfig& config, const std::string& process, Time start);
 
 /// As `record:` says, from before the first activation of `process` on. The file of the whole run,
 /// if it has one.

@@ -8,6 +8,7 @@
 #include <set>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 
 #include "armature/runtime/processes/running_processes.hpp"
 
@@ -79,9 +80,9 @@ std::vector<InstanceLock> own_arms(const DeploymentConfig& deployment, const std
   const bool is_main = process == kMainProcess;
   std::vector<InstanceLock> locks;
   locks.push_back(own_process(deployment, process, domain));
-  std::set<std::string> known;  // what one process has taken already
+  std::set<std::pair<std::string, std::string>> known;  // by host: each has devices of its own
   for (const Arm& arm : arms_of_metal(deployment)) {
-    if (!known.insert(arm.lock).second) {
+    if (!known.emplace(arm.host, arm.lock).second) {
       throw std::runtime_error{
           fmt::format("two components drive {}; give each a device of its own", arm.text)};
     }

@@ -107,6 +107,15 @@ TEST_F(ArmOwnership, TwoComponentsOfADeploymentDoNotDriveOneDevice) {
             "two components drive the arm at '" + port_ + "'; give each a device of its own");
 }
 
+TEST_F(ArmOwnership, TwoHostsHaveADeviceOfTheSameNameEach) {
+  auto deployment = driving(metal_, port_);
+  deployment.components.push_back(deployment.components.front());
+  deployment.components.back().process = "aside";
+  deployment.components.back().host = "desk";
+  EXPECT_EQ(refusal(deployment), "");
+  EXPECT_EQ(refusal(deployment, 1, "aside"), "");
+}
+
 TEST_F(ArmOwnership, ASimulatedArmIsItsDeploymentsOnEveryDomain) {
   const auto deployment = driving(simulated_, port_);
   const auto owned = own_arms(deployment, "main", 1);

@@ -22,6 +22,7 @@
 #include "armature/bus/fast_dds/participant.hpp"
 #include "armature/bus/fast_dds/sequence_gaps.hpp"
 #include "armature/bus/topic_name.hpp"
+#include "armature/values/recent.hpp"
 
 namespace armature {
 namespace {
@@ -90,9 +91,9 @@ class Watch final : public dds::DataReaderListener {
 
  private:
   const ObservedEndpoint* writer_with(const Guid& guid) {
-    if (const auto known = writers_.find(guid); known != writers_.end()) return &known->second;
+    if (const ObservedEndpoint* known = writers_.find(guid)) return known;
     const auto found = discovery_.find(guid);
-    return found ? &writers_.emplace(guid, observed(*found, discovery_)).first->second : nullptr;
+    return found ? &writers_.put(guid, observed(*found, discovery_)) : nullptr;
   }
 
   const std::string asked_;
@@ -102,7 +103,7 @@ class Watch final : public dds::DataReaderListener {
   std::mutex mutex_;
   IncomingBytes cdr_;
   SequenceGaps gaps_;
-  std::map<Guid, ObservedEndpoint> writers_;
+  Recent<Guid, ObservedEndpoint> writers_;
 };
 
 class Observer final : public DdsObserver {

@@ -19,6 +19,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kMostKept = 16U << 20;  // of a topic, but for its newest message [byte]
 constexpr std::string_view kWithPlayback = "foxglove.sdk.v1";
 enum Level { kWarning = 1, kError = 2 };
 
@@ -338,8 +339,13 @@ void FoxgloveBridge::forward() {
       if (found != subscriber.subscriptions.end()) send(client, found->second, message);
     }
     if (channel.topic.keeps == 0 || !channel.is_watched) continue;
-    if (channel.kept.size() >= channel.topic.keeps) channel.kept.pop_front();
     channel.kept.push_back(message);
+    if (channel.kept.size() > channel.topic.keeps) channel.kept.pop_front();
+    std::size_t bytes = 0;
+    for (const Message& kept : channel.kept) bytes += kept.cdr->size();
+    for (; bytes > kMostKept && channel.kept.size() > 1; channel.kept.pop_front()) {
+      bytes -= channel.kept.front().cdr->size();
+    }
   }
 }
 

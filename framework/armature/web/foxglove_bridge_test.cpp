@@ -26,7 +26,7 @@ class OneTopic final : public TopicSource {
  public:
   std::vector<Topic> topics() const override {
     if (!is_there_) return {};
-    return {{.name = "/light", .type = type_.load()}};
+    return {{.name = "/light", .type = type_.load(), .keeps = 100}};
   }
   Schema schema_of(const Topic&) const override { return {"lamp/msg/Light", "float64 lux"}; }
   bool watch(const std::string&, OnMessage on_message) override {
@@ -185,6 +185,25 @@ TEST_F(FoxgloveBridgeTest, ForgetsAChannelThatIsGoneAndNumbersItAnewWhenItComesA
   }
   EXPECT_EQ(answer_to(json{{"op", "subscribe"}, {"subscriptions", {subscription(2)}}}.dump()),
             "there is no channel " + std::to_string(channel_));
+}
+
+TEST_F(FoxgloveBridgeTest, KeepsOfATopicNoMoreThan16MBForThoseWhoComeLater) {
+  const json subscribing{{"op", "subscribe"}, {"subscriptions", {subscription(1)}}};
+  socket_.send_text(subscribing.dump());
+  EXPECT_EQ(answer_to(R"({"op": "end"})"), "'end' is not done here: a monitor only shows");
+  const auto next_of = [](WebSocket& socket) {
+    auto frame = socket.next();
+    while (frame && frame->op != 2) frame = socket.next();
+    return frame ? frame->payload.substr(13, 1) : "";
+  };
+  for (const char name : {'a', 'b', 'c'}) {
+    ASSERT_TRUE(topic_.write(std::string(7'000'000, name)));
+    ASSERT_EQ(next_of(socket_), std::string(1, name));
+  }
+  WebSocket later{bridge_.port(), "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n"};
+  later.send_text(subscribing.dump());
+  EXPECT_EQ(next_of(later), "b");
+  EXPECT_EQ(next_of(later), "c");
 }
 
 TEST_F(FoxgloveBridgeTest, OffersATopicAnewThatHasAnotherType) {

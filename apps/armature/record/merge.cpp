@@ -29,15 +29,13 @@ class Part {
   Part(const std::filesystem::path& file, McapWriter& writer)
       : file_{file}, reader_{file, true}, copy_{reader_, writer} {
     step();
-    for (const McapMetadata& metadata : reader_.metadata()) {
-      const auto value = [&](const char* key) {
-        const auto found = metadata.values.find(key);
-        return found == metadata.values.end() ? std::string{} : found->second;
-      };
-      if (metadata.name == kDeploymentMetadata) run_ = value("deployment") + " " + value("run");
-    }
-    processes_ = processes_of(reader_.metadata());
-    if (!run_.empty() && !processes_.empty()) return;
+    read_origin(reader_);
+    if (is_part()) return;
+    // In a recording that was repaired it stands behind everything.
+    McapReader whole{file};
+    while (whole.next()) continue;
+    read_origin(whole);
+    if (is_part()) return;
     throw InvalidChoice(fmt::format(
         "'{}' is no part of a run: only what a deployment records of itself (record:) can be "
         "joined",
@@ -75,6 +73,17 @@ class Part {
 
  private:
   void step() { next_ = reader_.next(); }
+  bool is_part() const { return !run_.empty() && !processes_.empty(); }
+  void read_origin(const McapReader& reader) {
+    for (const McapMetadata& metadata : reader.metadata()) {
+      const auto value = [&](const char* key) {
+        const auto found = metadata.values.find(key);
+        return found == metadata.values.end() ? std::string{} : found->second;
+      };
+      if (metadata.name == kDeploymentMetadata) run_ = value("deployment") + " " + value("run");
+    }
+    processes_ = processes_of(reader.metadata());
+  }
 
   std::filesystem::path file_;
   McapReader reader_;

@@ -13,7 +13,9 @@
 #include <stdexcept>
 
 #include "armature/recording/mcap_reader.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/recording/recording_test.hpp"
+#include "armature/runtime/recording/recorded_description.hpp"
 #include "exit_code.hpp"
 #include "record/merge.hpp"
 #include "record/unheard_writers.hpp"
@@ -166,6 +168,21 @@ TEST(DamagedRecording, IsToldOfByInfoAlsoWhenItWasRepaired) {
   for (const bool verify : {false, true}) {
     EXPECT_THAT(info_text({.file = repaired.path(), .verify = verify}, kOk), HasSubstr(expected));
   }
+}
+
+TEST(DamagedRecording, OfAProcessIsJoinedAfterItWasRepaired) {
+  const RecordingFile cut{"part"}, repaired{"repaired"}, joined{"joined"};
+  {
+    McapWriter writer{cut.path(), {.chunk_bytes = 1024}};
+    writer.add({.name = std::string{kDeploymentMetadata},
+                .values = {{"deployment", "lamp"}, {"run", "1-2"}}});
+    writer.add({.name = std::string{kProcessMetadata}, .values = {{kProcessKey, "vision"}}});
+    write_all_but_the_end(writer, 100);
+  }
+  ASSERT_EQ(in_silence([&] { return repair_recording(cut.path(), repaired.path(), true); }), kOk);
+  EXPECT_EQ(in_silence([&] { return merge_recordings({repaired.path()}, joined.path(), true); }),
+            kOk);
+  EXPECT_EQ(recorded_processes(joined.path()), std::vector<std::string>{"vision"});
 }
 
 TEST(DamagedRecording, WithAnyNameIsRepairedByTheLineThatIsTold) {

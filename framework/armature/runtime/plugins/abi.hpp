@@ -48,14 +48,14 @@ static_assert(sizeof(EIGEN_DEFAULT_DENSE_INDEX_TYPE) == sizeof(std::ptrdiff_t),
               "Armature's matrices have sizes of std::ptrdiff_t: leave "
               "EIGEN_DEFAULT_DENSE_INDEX_TYPE out");
 #endif
-namespace armature::abi {
-struct Padded {
+namespace armature::detail {
+struct PaddedAsUsual {
   char first;
   double second;
 };
-static_assert(offsetof(Padded, second) == alignof(double),
+static_assert(offsetof(PaddedAsUsual, second) == alignof(double),
               "Armature's structs are padded as usual: leave -fpack-struct out");
-}  // namespace armature::abi
+}  // namespace armature::detail
 
 #define ARMATURE_ABI_TAG \
   "compiler abi " ARMATURE_ABI_TEXT(__GXX_ABI_VERSION) ", libstdc++ " ARMATURE_ABI_TEXT(           \

@@ -107,9 +107,11 @@ TEST_F(GoalExecutionTest, AHaltedArmThatSaysThatItFollowsIsNotMovedByWhatItMeasu
     const JointVector rested = before_.q;
     for (int k = 0; k < 5000; ++k) put(rested + JointVector::Constant(3, beside));
     for (int k = 0; k < 5000; ++k) put(rested + JointVector::Constant(3, beside * (1 + 1e-4 * k)));
+    const JointVector drifted = rested + JointVector::Constant(3, 1.5 * beside);
+    for (int k = 0; k < 100; ++k) put(drifted);
     EXPECT_EQ(before_.q, rested);
     ASSERT_TRUE(execution_.rearm(now_));
-    step_with(rested + JointVector::Constant(3, beside));
+    step_with(drifted);
     EXPECT_EQ(before_.q, rested) << "the rearm moves nothing";
   }
 }

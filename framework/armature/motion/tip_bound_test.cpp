@@ -25,15 +25,16 @@ TEST(TipBound, AnArmThatIsWhereItShallBeIsWithinAnyBound) {
 }
 
 TEST(TipBound, AnglesTooSmallForTheJointsBoundAreToldInMillimetresOfTheTip) {
-  const JointVector home = resting_position(scope());
+  const RobotModel lamp = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml");
+  const JointVector home = resting_position(lamp);
   JointVector bent = home;
   bent[1] += 0.03;
-  const double off_m = (forward_kinematics(scope(), bent).translation() -
-                        forward_kinematics(scope(), home).translation())
-                           .norm();
+  const double off_m =
+      (forward_kinematics(lamp, bent).translation() - forward_kinematics(lamp, home).translation())
+          .norm();
   ASSERT_GT(off_m, 0.01);
-  EXPECT_TRUE(tip_violation(scope(), bent, home, 1.001 * off_m).empty());
-  EXPECT_EQ(tip_violation(scope(), bent, home, 0.002),
+  EXPECT_TRUE(tip_violation(lamp, bent, home, 1.001 * off_m).empty());
+  EXPECT_EQ(tip_violation(lamp, bent, home, 0.002),
             ReasonText::format("the tip of the arm is {:.4g} mm away from the reference "
                                "(max_tip_deviation_m is 0.002)",
                                1e3 * off_m));

@@ -55,7 +55,8 @@ TEST(Sr1Biopsy, ANeedleThatIsStoppedInTheHeadStaysOnItsLine) {
 TEST(Sr1Biopsy, ANeedleThatTrailsItsWayStops) {
   const DeploymentRun run = biopsy({"components.arm.params.lag_s=0.1"});
   EXPECT_EQ(run.status(), "refused") << run.text();
-  EXPECT_NE(run.word("reason").find(" away from the reference (max_deviation_"), std::string::npos)
+  EXPECT_NE(run.word("reason").find(" away from the reference (max_tip_deviation_m "),
+            std::string::npos)
       << run.text();
 }
 

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <stdexcept>
 
 #include "armature/values/file_content.hpp"
 #include "armature/values/temporary_folder.hpp"
@@ -60,6 +62,7 @@ LyingRun run_with(const Lie& lie, double from_s, const std::string& file,
       .settings = std::move(settings)};
   start.options.environment["ARMATURE_PLUGIN_PATH"] = TEST_PLUGINS;
   LyingRun lying{.run = run_deployment(start), .truth = {}};
+  if (!std::filesystem::exists(folder / "truth.csv")) throw std::runtime_error{lying.run.text()};
   lying.truth = read_joint_table(content_of(folder / "truth.csv"));
   return lying;
 }

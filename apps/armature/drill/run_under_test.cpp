@@ -15,6 +15,7 @@
 #include <iterator>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "armature/values/spawn_plan.hpp"
 

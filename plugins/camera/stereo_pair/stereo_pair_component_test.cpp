@@ -2,6 +2,7 @@
 // 1. Of points that two bent and crooked cameras see, the pair shows rows that agree, and its
 // camera infos triangulate them. 2. Pictures that are no pair are refused, counted, and told. 3. A
 // calibration and a rig that do not belong together are refused before the run.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 

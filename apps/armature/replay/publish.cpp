@@ -108,7 +108,7 @@ class Player {
   }
   std::uint64_t messages() const { return messages_; }
   std::size_t topics() const { return topics_.size(); }
-  /// What is not published, and why.
+  /// The topics and messages that are not published, with the reason.
   const std::set<std::string>& left_out() const { return left_out_; }
   /// Messages that are not what their type says, by topic.
   const std::map<std::string, std::uint64_t>& broken() const { return broken_; }

@@ -7,12 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <system_error>
 #include <utility>
 
 #include "armature/config/problems.hpp"
 #include "armature/config/unit_suffix.hpp"
+#include "armature/values/angles.hpp"
 
 namespace armature::config {
 namespace {
@@ -49,18 +49,19 @@ std::string out_of_range(const KeySpec& key, std::string_view written, double va
                      key.because);
 }
 
-/// What is wrong with a length or an angle that no key limits: most are told in another unit.
+/// Why a length or an angle is refused that its key does not limit; empty: it is not. A robot has
+/// none so large: it is told in another unit.
 std::string far_from_any_robot(const KeySpec& key, std::string_view written, double value) {
-  constexpr double kFarthest_m = 100, kMost_deg = 1e6, kDegree = std::numbers::pi / 180;
+  constexpr double kMaxLength_m = 100, kMaxAngle_deg = 1e6;
   const UnitSuffix* unit = unit_of(written);
   if (!unit || key.max) return "";
-  if (unit->si == "m" && std::abs(value) * unit->to_si > kFarthest_m) {
+  if (unit->si == "m" && std::abs(value) * unit->to_si > kMaxLength_m) {
     return fmt::format("is {}, farther than {:g} m; is it told in another unit?", value,
-                       kFarthest_m);
+                       kMaxLength_m);
   }
-  if (unit->si == "rad" && std::abs(value) * unit->to_si > kMost_deg * kDegree) {
+  if (unit->si == "rad" && std::abs(value) * unit->to_si > kMaxAngle_deg * kRadPerDegree) {
     return fmt::format("is {}, more than {:g} degrees; is it told in another unit?", value,
-                       kMost_deg);
+                       kMaxAngle_deg);
   }
   return "";
 }

@@ -7,10 +7,10 @@
 namespace armature ARMATURE_EXPORT {
 
 /// Empty, or how far the tip of an arm at `q` is from where it is at `wanted`, when that is more
-/// than `most_m`; where the robot file names a shaft, its end behind the tip is looked at as well,
+/// than `max_m`; where the robot file names a shaft, its end behind the tip is looked at as well,
 /// so that no point of it, as in an incision, is farther off either. "the tip of the arm is 3.2 mm
 /// away from the reference (max_tip_deviation_m is 0.002)". Real-time safe.
 ReasonText tip_violation(const RobotModel& model, const JointVector& q, const JointVector& wanted,
-                         double most_m);
+                         double max_m);
 
 }  // namespace armature

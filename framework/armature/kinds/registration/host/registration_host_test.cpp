@@ -75,7 +75,7 @@ class RegistrationHostTest
       : RequestHostTest{plugins(),
                         {.component = "{plugin: registration/first_marker}", .robot = {}}} {}
 
-  /// Of a host that is told that the images are not mirrored.
+  /// The answer of a host that is told that the images are not mirrored.
   static msg::RegistrationResponse ask_vouched(const msg::RegistrationRequest& question) {
     ComponentHarness vouched{
         plugins(),

@@ -15,18 +15,13 @@ constexpr int kMaxAttempts = 3;                    // to plan while the arm move
 constexpr double kStill = 1e-3;                    // [rad/s] or [m/s] that an arm tells of itself
 constexpr double kSamePlace = 1e-6;                // [rad] or [m]
 constexpr Duration kPausePatience = seconds(0.1);  // behind the start that its plan should have
-// Within this a drive that is on has gone where the reference came.
-constexpr Duration kAnswer = seconds(1);
-constexpr Duration kListens = seconds(0.3);  // behind the first part of the way to an arm
-constexpr double kFirstPart = 10;            // of what a joint that rests may be told off by
-constexpr double kGently = 0.1;              // of the accelerations, on that part
 
 constexpr std::string_view kFollowsNothing =
     "the arm says that it follows nothing (operating_state): enable it";
 constexpr std::string_view kFollows =
     "the arm says that it follows, so the reference stays: look at its encoders, its load and what "
     "holds it";
-constexpr std::string_view kBesideItself =
+constexpr std::string_view kGoesAlong =
     "the arm goes along when the reference comes to it, so the reference stays: look at the arm's "
     "encoders and load";
 
@@ -58,7 +53,8 @@ GoalExecution::GoalExecution(const RobotModel& model, const MotionLimits& limits
       options_{options},
       tracker_{tracker},
       no_tracker_{no_tracker},
-      rest_{each(options.rest_tolerance, model)} {}
+      rest_{each(options.rest_tolerance, model)},
+      return_{model, limits, each(options.rest_tolerance, model)} {}
 
 GoalStatus& GoalExecution::report(std::uint64_t goal_id, State state, std::string_view stage,
                                   const ReasonText& reason) {
@@ -139,38 +135,10 @@ void GoalExecution::stop(Time now) {
                                     limits_.max_acceleration, now, last_goal_id_));
 }
 
-bool GoalExecution::goes_along(const JointVector& q, Time now) const {
-  if (!came_ || now - came_->end > kAnswer) return false;
-  const JointVector by = came_->to - came_->from, went = q - came_->rested;
-  Eigen::Index most = 0;
-  by.cwiseAbs().maxCoeff(&most);
-  const double share = went[most] / by[most];
-  return share > 0.5 && share < 2;  // farther it was pushed
-}
-
-double GoalExecution::share_to_come(const JointVector& way, Time now) const {
-  const bool has_listened = came_ && now - came_->end <= kAnswer;
-  if (has_listened) return 1;
-  const JointVector parts = kFirstPart * each(options_.rest_tolerance, model_);
-  return std::min(1.0, 1 / way.cwiseQuotient(parts).cwiseAbs().maxCoeff());
-}
-
-void GoalExecution::come_to(const JointVector& q, Time now) {
-  if (follows_ == true || !rest_.rests() || beside_itself_ || now < reference_.end()) return;
-  if (goes_along(q, now)) {
-    beside_itself_ = true;
-    return;
-  }
-  if (came_ && now - came_->end <= kListens) return;
-  const JointVector from = reference_.at(now).q;
-  const JointVector way = q.cwiseMax(model_.lower()).cwiseMin(model_.upper()) - from;
-  if (way.isZero(kSamePlace)) return;
-  const double share = share_to_come(way, now);
-  const JointVector to = from + share * way;
-  const JointVector max_acceleration = (share < 1 ? kGently : 1) * limits_.max_acceleration;
-  reference_.splice(
-      short_move(from, to, limits_.max_velocity, max_acceleration, now, last_goal_id_));
-  came_ = {.from = from, .to = to, .rested = q, .end = reference_.end()};
+void GoalExecution::return_to(const JointVector& q, Time now) {
+  if (follows_ == true || !rest_.rests() || now < reference_.end()) return;
+  const auto part = return_.next_part(reference_.at(now).q, q, now, last_goal_id_);
+  if (part) reference_.splice(*part);
 }
 
 void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
@@ -183,7 +151,7 @@ void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
   }
   const bool was_astray = std::exchange(astray_, !stray.empty());
   if (stray.empty()) {
-    beside_itself_ = beside_itself_ && (halted() || !rest_.rests());
+    if (!halted() && rest_.rests()) return_.allow_again();
     return trouble_.clear();
   }
   if (!was_astray) {
@@ -191,11 +159,11 @@ void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
     fail_all("execution", stray);
     return stop(now);
   }
-  if (halted() || beside_itself_ || joints_are_near) return;
-  come_to(measured.q, now);
+  if (halted() || return_.arm_goes_along() || joints_are_near) return;
+  return_to(measured.q, now);
   const bool stays = follows_ == true && rest_.rests() && now >= reference_.end();
-  if (stays || beside_itself_) {
-    trouble_ = ReasonText::format("{}; {}", stray.view(), stays ? kFollows : kBesideItself);
+  if (stays || return_.arm_goes_along()) {
+    trouble_ = ReasonText::format("{}; {}", stray.view(), stays ? kFollows : kGoesAlong);
   }
 }
 
@@ -215,8 +183,8 @@ void GoalExecution::forget_if_late(Time now) {
   measured_.reset();  // nor may a rearm begin from where the arm was
   rest_.forget();
   begin_after_ = now;
-  spliced_ = astray_ = in_hand_ = beside_itself_ = false;
-  came_.reset();
+  spliced_ = astray_ = in_hand_ = false;
+  return_.forget();
 }
 
 void GoalExecution::begin(Time now, const std::optional<MeasuredJoints>& measured) {
@@ -245,14 +213,18 @@ void GoalExecution::stay_with(const MeasuredJoints& measured, Time now) {
   // An arm that follows, and sags a little, would sink if the reference came to it.
   // One that moves while the reference stands is moved by somebody.
   if (is_within(options_.goal_tolerance) || !rest_.rests()) {
-    beside_itself_ = false;
-  } else if (!beside_itself_) {
-    come_to(measured.q, now);
-    const bool told = halted_.view().find(kBesideItself) != std::string_view::npos;
-    if (beside_itself_ && !told) {
-      halted_ = ReasonText::format("{}; {}", halted_.view(), kBesideItself);
-    }
+    return_.allow_again();
+  } else if (follows_ == true) {
+    tell_beside(kFollows);
+  } else if (!return_.arm_goes_along()) {
+    return_to(measured.q, now);
+    if (return_.arm_goes_along()) tell_beside(kGoesAlong);
   }
+}
+
+void GoalExecution::tell_beside(std::string_view why) {
+  if (halted_.view().find(why) != std::string_view::npos) return;
+  halted_ = ReasonText::format("{}; {}", halted_.view(), why);
 }
 
 void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measured) {
@@ -459,8 +431,8 @@ bool GoalExecution::rearm(Time now) {
   was_stopped_ = in_hand_ = false;
   trouble_.clear();
   astray_ = false;
-  came_.reset();
-  const bool stays = std::exchange(beside_itself_, false) || follows_ == true;
+  const bool stays = return_.arm_goes_along() || follows_ == true;
+  return_.forget();
   if (!stays) reference_.start(measured_->q, now);
   return true;
 }

@@ -10,6 +10,7 @@
 #include "armature/motion/plan_exchange.hpp"
 #include "armature/motion/reference.hpp"
 #include "armature/motion/rest_watch.hpp"
+#include "armature/motion/return_to_arm.hpp"
 #include "armature/motion/tracking.hpp"
 
 namespace armature ARMATURE_EXPORT {
@@ -159,20 +160,13 @@ class GoalExecution {
   void begin(Time now, const std::optional<MeasuredJoints>& measured);
   /// Once the reference of an arm that is halted rests.
   void stay_with(const MeasuredJoints& measured, Time now);
+  /// Says once, behind why the arm is halted, why the reference stays beside it.
+  void tell_beside(std::string_view why);
   /// After a standstill of this unit or of the whole machine the reference must not be where it
   /// would have come to meanwhile: the arm has not gone there.
   void forget_if_late(Time now);
-  /// From rest to rest, within limits: to an arm that rests at `q`, and does not say that it
-  /// follows. Not to one whose drive is on all the same, and which measures itself beside where it
-  /// is told to be (an encoder that slipped, a load that a weak drive does not hold): the reference
-  /// would come to it for ever, and take it along. So it comes by little first, 1 mm or 1 mrad, and
-  /// the rest of the way when the arm has not gone along.
-  void come_to(const JointVector& q, Time now);
-  /// Whether an arm that rests at `q` has gone on by what the reference came to it, by half at
-  /// least and by twice at most.
-  bool goes_along(const JointVector& q, Time now) const;
-  /// How much of the way to an arm the reference comes now: little at first.
-  double share_to_come(const JointVector& way, Time now) const;
+  /// To an arm that rests at `q`, and does not say that it follows.
+  void return_to(const JointVector& q, Time now);
   /// Whether the arm follows the reference, and what to do when it does not.
   void watch(Time now, const MeasuredJoints& measured);
   /// True while a hand moves the arm; it does not before the arm has stopped.
@@ -205,14 +199,8 @@ class GoalExecution {
   bool spliced_ = false;  // since the last update
   bool astray_ = false;   // the arm is not where the reference is
   std::optional<bool> follows_;
-  struct Coming {
-    JointVector from, to;
-    JointVector rested;  // where the arm did
-    Time end;
-  };
-  std::optional<Coming> came_;  // the last one to an arm that rested elsewhere
-  bool beside_itself_ = false;  // an arm that went along then
-  bool in_hand_ = false;        // it was halted while a hand moved it, which still does
+  ReturnToArm return_;
+  bool in_hand_ = false;  // it was halted while a hand moved it, which still does
   ReasonText trouble_ = "no joint state of the arm yet";
   ReasonText halted_;
 };

@@ -110,6 +110,8 @@ TEST_F(GoalExecutionTest, AHaltedArmThatSaysThatItFollowsIsNotMovedByWhatItMeasu
     const JointVector drifted = rested + JointVector::Constant(3, 1.5 * beside);
     for (int k = 0; k < 100; ++k) put(drifted);
     EXPECT_EQ(before_.q, rested);
+    EXPECT_THAT(std::string{execution_.trouble().view()},
+                testing::StartsWith("the button; the arm says that it follows"));
     ASSERT_TRUE(execution_.rearm(now_));
     step_with(drifted);
     EXPECT_EQ(before_.q, rested) << "the rearm moves nothing";

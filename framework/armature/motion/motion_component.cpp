@@ -40,6 +40,12 @@ msg::JointReference reference_with_room(const RobotModel& model) {
   return message;
 }
 
+msg::PoseStamped pose_with_room() {
+  msg::PoseStamped message;
+  write_header(message.header_(), {}, kBaseFrame);
+  return message;
+}
+
 msg::MotionStatus status_with_room() {
   const ReasonText longest{std::string(1000, ' ')};
   msg::MotionStatus message;
@@ -70,6 +76,7 @@ Motion::Motion(Setup& setup)
       stops_{setup, seconds(parameters_.operator_timeout)},
       plan_request_{setup.output<msg::MotionPlanRequest>("plan_request")},
       servo_jp_{setup.output<msg::JointState>("servo_jp")},
+      setpoint_cp_{setup.output<msg::PoseStamped>("setpoint_cp")},
       reference_{setup.output<msg::JointReference>("reference")},
       status_{setup.output<msg::MotionStatus>("status")},
       tracker_{ik_ ? std::optional<Tracker>{std::in_place, model_,
@@ -90,6 +97,7 @@ Motion::Motion(Setup& setup)
                           "add one that does, for example sim/surgeon with incision_mm");
   }
   servo_jp_.prepare(joints_with_room(model_));
+  setpoint_cp_.prepare(pose_with_room());
   reference_.prepare(reference_with_room(model_));
   status_.prepare(status_with_room());
   plan_request_.prepare(request_of(model_));
@@ -244,6 +252,12 @@ void Motion::publish_reference(Time now) {
   auto servo = servo_jp_.loan();
   write_all_joints(model_, state.q, state.v, now, *servo);
   servo.publish();
+  if (setpoint_cp_.has_subscribers()) {
+    auto setpoint = setpoint_cp_.loan();
+    write_header(setpoint->header_(), now, kBaseFrame);
+    assign(setpoint->pose_(), forward_kinematics(model_, state.q));
+    setpoint.publish();
+  }
   auto reference = reference_.loan();
   write_reference(model_, state, now, *reference);
   reference.publish();

@@ -52,6 +52,7 @@ class Motion final : public Component {
   StopInputs stops_;
   Output<msg::MotionPlanRequest> plan_request_;
   Output<msg::JointState> servo_jp_;
+  Output<msg::PoseStamped> setpoint_cp_;
   Output<msg::JointReference> reference_;
   Output<msg::MotionStatus> status_;
   std::optional<Tracker> tracker_;

@@ -210,6 +210,25 @@ TEST_F(MotionComponentTest, AnArmThatIsElsewhereFailsTheGoalAndTheReferenceStops
   EXPECT_EQ(motion_.status().state, StatusReporter::State::ok);
 }
 
+TEST_F(MotionComponentTest, TheSetpointIsWhereTheReferenceHasTheTool) {
+  run(100.1);
+  give(goal(1, {2, 0, 0}));
+  run(100.3);
+  const auto joints = motion_.take<msg::JointState>("servo_jp");
+  const auto poses = motion_.take<msg::PoseStamped>("setpoint_cp");
+  ASSERT_EQ(poses.size(), joints.size());
+  EXPECT_GT(
+      (to_eigen(poses.back().pose_().position_()) - to_eigen(poses.front().pose_().position_()))
+          .norm(),
+      0.001);
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const std::vector<double>& q = joints[i].position_();  // z, y, x
+    EXPECT_LT((to_eigen(poses[i].pose_().position_()) - Vector3d{q[2], q[1], q[0]}).norm(), 1e-12);
+    EXPECT_EQ(poses[i].header_().frame_id_(), kBaseFrame);
+    EXPECT_EQ(stamp_of(poses[i].header_().stamp_()), stamp_of(joints[i].header_().stamp_()));
+  }
+}
+
 TEST_F(MotionComponentTest, AJointStateThatIsNoneIsTroubleUntilAGoodOneComes) {
   run(100.1);
   const auto trouble = [&](const std::vector<double>& position) {

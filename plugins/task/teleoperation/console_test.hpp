@@ -36,7 +36,7 @@ class TeleoperationTest : public testing::Test {
   void show_console() {
     view_.follower_T_leader = console_;
     view_.leader_T_hand = pose_of({0, 0, 0.1});
-    view_.follower_T_tool = instrument_;
+    view_.follower_T_tool = view_.follower_T_setpoint = instrument_;
   }
   /// The leader stands on the instrument, and the motion says so.
   void align() {

@@ -31,15 +31,15 @@ Eigen::Vector3d about_incision(const Eigen::Vector3d& from, const Eigen::Vector3
 
 }  // namespace
 
-void ScaledMotion::engage(const Eigen::Isometry3d& follower_T_tool,
+void ScaledMotion::engage(const Eigen::Isometry3d& follower_T_setpoint,
                           const Eigen::Isometry3d& leader_T_hand,
                           const Eigen::Matrix3d& follower_R_leader,
                           const std::optional<Eigen::Vector3d>& incision) {
   incision_ = incision;
   follower_R_leader_ = follower_R_leader;
   hand_ = leader_T_hand;
-  position_ = follower_T_tool.translation();
-  rotation_ = follower_T_tool.linear();
+  position_ = follower_T_setpoint.translation();
+  rotation_ = follower_T_setpoint.linear();
   engaged_s_ = 0;
 }
 

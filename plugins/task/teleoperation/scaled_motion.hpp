@@ -30,7 +30,7 @@ class ScaledMotion {
 
   /// The clutch closes with the follower and the hand there; `follower_R_leader` turns what is told
   /// in the leader's base frame into the follower's. The incision is told in the follower's.
-  void engage(const Eigen::Isometry3d& follower_T_tool, const Eigen::Isometry3d& leader_T_hand,
+  void engage(const Eigen::Isometry3d& follower_T_setpoint, const Eigen::Isometry3d& leader_T_hand,
               const Eigen::Matrix3d& follower_R_leader,
               const std::optional<Eigen::Vector3d>& incision = {});
   /// One period later; or so many, when the hand's poses between were missed.

@@ -125,6 +125,7 @@ std::string Teleoperation::missing(const ConsoleView& view, Time now) const {
     const std::string& why = leader_goal_.reason();
     return "the leader is not free for the hand" + (why.empty() ? "" : ": " + why);
   }
+  if (!view.follower_T_setpoint) return "the follower's motion tells nothing";
   if (!view.clutch_closed) return "the clutch tells nothing";
   if (now - hand_went_on_ > seconds(kLongestGap_s)) return "the leader's stamps stand still";
   return "";
@@ -166,7 +167,8 @@ void Teleoperation::await_clutch(const ConsoleView& view, const std::string& mis
 }
 
 void Teleoperation::engage(const ConsoleView& view) {
-  motion_.engage(*view.follower_T_tool, *hand_, view.follower_T_leader->linear(), view.incision);
+  motion_.engage(*view.follower_T_setpoint, *hand_, view.follower_T_leader->linear(),
+                 view.incision);
   missing_since_.reset();
   first_engaged_id_ = last_follower_id_ + 1;
   phase_ = Phase::teleoperating;

@@ -16,7 +16,7 @@ namespace armature::task::teleoperation {
 /// What is known at one instant; what is silent is not there.
 struct ConsoleView {
   std::optional<Eigen::Isometry3d> follower_T_leader;  // where the console stands
-  std::optional<Eigen::Isometry3d> leader_T_hand, follower_T_tool;
+  std::optional<Eigen::Isometry3d> leader_T_hand, follower_T_tool, follower_T_setpoint;
   Time hand_stamp;  // of leader_T_hand
   std::optional<bool> clutch_closed;
   std::optional<Eigen::Vector3d> incision;  // [m] in the follower's base frame; none: none is there

@@ -71,9 +71,11 @@ class TeleoperationComponent final : public Component {
       }
       return found;
     };
-    ConsoleView view{.follower_T_leader = pose_of(ports_.console, "the console"),
-                     .leader_T_hand = pose_of(ports_.leader_cp, "the leader"),
-                     .follower_T_tool = pose_of(ports_.follower_cp, "the follower's tool")};
+    ConsoleView view{
+        .follower_T_leader = pose_of(ports_.console, "the console"),
+        .leader_T_hand = pose_of(ports_.leader_cp, "the leader"),
+        .follower_T_tool = pose_of(ports_.follower_cp, "the follower's tool"),
+        .follower_T_setpoint = pose_of(ports_.follower_setpoint, "the follower's setpoint")};
     if (view.leader_T_hand) {
       view.hand_stamp = stamp_of(ports_.leader_cp.latest()->header_().stamp_());
     }

@@ -34,6 +34,7 @@ class TeleoperationComponentTest : public testing::Test {
     task_.send("leader_cp", pose);
     assign(pose.pose_(), follower_T_tool_);
     task_.send("follower_cp", pose);
+    task_.send("follower_setpoint", pose);
   }
   void tell_console() {
     msg::TransformStamped console;

@@ -185,6 +185,7 @@ TEST_F(TeleoperationTest, WhatFallsSilentHoldsTheFollowerUntilTheClutchWasOpen) 
   held([&] { view_.clutch_closed.reset(); }, "the clutch tells nothing");
   held([&] { view_.leader_T_hand.reset(); }, "the leader tells nothing");
   held([&] { view_.follower_T_tool.reset(); }, "the follower tells nothing");
+  held([&] { view_.follower_T_setpoint.reset(); }, "the follower's motion tells nothing");
   held([&] { view_.follower_T_leader.reset(); }, "where the console stands is not known");
 }
 

@@ -123,18 +123,20 @@ TEST_F(TeleoperationTest, WithTheClutchOpenTheFollowerIsStoppedOnceAndLeftAlone)
   }
 }
 
-TEST_F(TeleoperationTest, ClosingTheClutchAgainGoesOnFromWhereTheFollowerIs) {
+TEST_F(TeleoperationTest, ClosingTheClutchAgainGoesOnFromWhereTheFollowersMotionIs) {
   close_clutch();
   see(10);
   view_.clutch_closed = false;
   see();
   move_hand(30);
-  view_.follower_T_tool = pose_of({0.4, 0.1, 0.3}, 1);
+  view_.follower_T_setpoint = pose_of({0.4, 0.1, 0.3}, 1);
+  view_.follower_T_tool = Eigen::Translation3d{0, 0, -0.002} * *view_.follower_T_setpoint;
   see(2000);
   view_.clutch_closed = true;
   see(2);
   ASSERT_TRUE(follower_goal_);
-  EXPECT_LT((follower_goal_->pose.position - view_.follower_T_tool->translation()).norm(), 1e-9);
+  EXPECT_LT((follower_goal_->pose.position - view_.follower_T_setpoint->translation()).norm(), 1e-9)
+      << "an arm that sags does not sink";
 }
 
 TEST_F(TeleoperationTest, AClosedClutchMovesNothingBeforeTheLeaderIsGivenToTheHand) {

@@ -44,12 +44,14 @@ void RemoteTopics::advertise(const PortBinding& output, Topic& topic) {
 }
 
 void RemoteTopics::subscribe(const PortBinding& input, Topic& topic) {
-  const int writers = writers_elsewhere(input.topic);
+  const auto outputs = writers_elsewhere(input.topic);
+  const auto writers = static_cast<int>(outputs.size());
   const bool elsewhere = writers > 0;
   const Sources sources = input.spec.outside ? Sources::any : Sources::deployment;
   if ((!elsewhere && !input.spec.outside) || readers_.contains({input.topic, sources})) return;
   TopicSpec spec = topic.spec();
-  spec.qos = input.spec.qos;
+  // One reader serves all inputs of this process, whatever each of them asks for.
+  spec.qos = elsewhere ? outputs.front()->spec.qos : input.spec.qos;
   auto reader = transport_->subscribe(
       spec, sources == Sources::deployment,
       [&topic, sources, writer = kRemote + static_cast<std::uint32_t>(readers_.size()),
@@ -117,13 +119,15 @@ int RemoteTopics::readers_elsewhere(const std::string& topic) const {
   return static_cast<int>(readers.size());
 }
 
-int RemoteTopics::writers_elsewhere(const std::string& topic) const {
-  std::ptrdiff_t writers = 0;
+std::vector<const PortBinding*> RemoteTopics::writers_elsewhere(const std::string& topic) const {
+  std::vector<const PortBinding*> writers;
   for (const ComponentConfig& component : deployment_->components) {
     if (component.process == process_) continue;
-    writers += std::ranges::count(component.outputs, topic, &PortBinding::topic);
+    for (const PortBinding& output : component.outputs) {
+      if (output.topic == topic) writers.push_back(&output);
+    }
   }
-  return static_cast<int>(writers);
+  return writers;
 }
 
 }  // namespace armature

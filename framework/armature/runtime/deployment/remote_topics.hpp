@@ -46,8 +46,8 @@ class RemoteTopics {
   /// How many readers other processes have for `topic`: one for all inputs of a process that take
   /// samples of the deployment only, and one for those that are open.
   int readers_elsewhere(const std::string& topic) const;
-  /// How many components of other processes write `topic`.
-  int writers_elsewhere(const std::string& topic) const;
+  /// The outputs of other processes that write `topic`.
+  std::vector<const PortBinding*> writers_elsewhere(const std::string& topic) const;
 
   PluginPtr<Transport> transport_;
   const DeploymentConfig* deployment_;

@@ -205,7 +205,7 @@ int run_drill(const DrillOptions& options) {
   print_out("{}\n", options.json ? to_json(deployment.name, seed, results, drill.stopped())
                                  : counts(results));
   if (drill.stopped()) return kFailed;
-  return std::ranges::none_of(results, &drill::TrialResult::failed) ? kOk : kFailed;
+  return drill::has_passed(results) ? kOk : kFailed;
 }
 
 }  // namespace armature

@@ -61,6 +61,11 @@ std::string counts(const std::vector<TrialResult>& results) {
   return text;
 }
 
+bool has_passed(const std::vector<TrialResult>& results) {
+  const Counts counted = count(results);
+  return counted.passed > 0 && counted.failed == 0;
+}
+
 std::string to_json(const std::string& deployment, std::uint64_t seed,
                     const std::vector<TrialResult>& results,
                     const std::optional<std::string>& stopped) {

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "drill/drill_report.hpp"
+
 namespace armature::drill {
 namespace {
 
@@ -96,6 +98,14 @@ TEST(Verdict, WhereAllRestedAtTheFaultAnyMovementIsGoingOn) {
 TEST(Verdict, AnArmThatWasNotHeardFails) {
   EXPECT_EQ(judge(kArms, {record(0.1), ArmRecord{{{"j1", 1}}}}, {.stop = at(0.5)}).wrong,
             "'right' was not heard");
+}
+
+TEST(ADrill, HasPassedWhenOneFaultPassedAtLeastAndNoneFailed) {
+  const TrialResult passed, failed{.wrong = "it moved on"}, untried{.untried = "no arm moved"};
+  EXPECT_TRUE(has_passed({passed, untried}));
+  EXPECT_FALSE(has_passed({passed, failed}));
+  EXPECT_FALSE(has_passed({untried})) << "nothing was shown";
+  EXPECT_FALSE(has_passed({}));
 }
 
 }  // namespace

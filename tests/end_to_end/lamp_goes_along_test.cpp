@@ -65,16 +65,12 @@ TEST(LampGoesAlong, SeenByItsCamerasItIsSo) {
   for (const int pictures_hz : {10, 30}) expect_near(run_along(pictures_hz, false));
 }
 
-TEST(LampGoesAlong, WheneverBetweenTwoPicturesHeBegins) {
-  for (const double begins_s : {7.03, 7.06, 7.09}) {
-    expect_near(run_along(10, false, {.begins_s = begins_s}));
-  }
-}
-
 /// One who hardly turns is seen to move by his mouth alone.
-TEST(LampGoesAlong, HoweverMuchHeTurns) {
-  for (const double turn_deg_s : {0., 10. / 3, 20. / 3}) {
-    expect_near(run_along(10, false, {.turn_deg_s = turn_deg_s}));
+TEST(LampGoesAlong, WheneverBetweenTwoPicturesHeBeginsAndHoweverMuchHeTurns) {
+  for (const Move& move :
+       {Move{.begins_s = 7.03, .turn_deg_s = 0}, Move{.begins_s = 7.06, .turn_deg_s = 10. / 3},
+        Move{.begins_s = 7.09, .turn_deg_s = 20. / 3}}) {
+    expect_near(run_along(10, false, move));
   }
 }
 

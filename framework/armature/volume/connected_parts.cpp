@@ -58,21 +58,21 @@ VoxelMask voxels_between(const Volume& volume, double low, double high) {
 }
 
 VoxelMask dilated(const VoxelMask& mask, const VolumeGeometry& geometry, int steps) {
+  const auto set_where = [](const std::uint8_t* from, std::uint8_t* to, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) to[i] |= from[i];
+  };
   VoxelMask result = mask;
   std::size_t stride = 1;
   for (const int length : geometry.size) {  // a cube grows along one axis after the other
-    const auto n = static_cast<std::size_t>(length);
+    const std::size_t block = stride * static_cast<std::size_t>(length);
     for (int step = 0; step < steps; ++step) {
       const VoxelMask before = result;
-      for (std::size_t at = 0; at < result.size(); ++at) {
-        const std::size_t place = at / stride % n;
-        if ((place > 0 && before[at - stride] != 0) ||
-            (place + 1 < n && before[at + stride] != 0)) {
-          result[at] = 1;
-        }
+      for (std::size_t at = 0; at < result.size(); at += block) {
+        set_where(&before[at], &result[at] + stride, block - stride);
+        set_where(&before[at] + stride, &result[at], block - stride);
       }
     }
-    stride *= n;
+    stride = block;
   }
   return result;
 }

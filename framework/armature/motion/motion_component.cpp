@@ -10,6 +10,7 @@
 #include "armature/motion/motion_messages.hpp"
 #include "armature/motion/motion_params.hpp"
 #include "armature/motion/planner_component.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 
 namespace armature {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same file in two processes, over DDS.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <string>
 #include <utility>
@@ -17,11 +17,14 @@ TEST(TwoProcesses, MeetTheSameGoalsOverDds) {
   expect_aligned(run_deployment(start));
 }
 
+DeploymentStart pulse(std::vector<std::string> settings) {
+  return {.files = {source_file("tests/end_to_end/pulse.yaml")},
+          .settings = std::move(settings),
+          .options = {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}};
+}
+
 DeploymentRun run_pulse(std::vector<std::string> settings) {
-  return run_deployment(
-      {.files = {source_file("tests/end_to_end/pulse.yaml")},
-       .settings = std::move(settings),
-       .options = {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}});
+  return run_deployment(pulse(std::move(settings)));
 }
 
 TEST(TwoProcesses, WhatOneSendsOnlyOnceAtItsStartReachesTheOther) {
@@ -49,6 +52,15 @@ TEST(TwoProcesses, AComponentThatFailsInTheOtherOneEndsTheRunWithItsFault) {
     EXPECT_NE(run.command.err.find("out of breath"), std::string::npos) << run.text();
     EXPECT_FALSE(run.command.timed_out);
   }
+}
+
+TEST(TwoProcesses, OneThatEndsWithAnotherExitCodeThan0IsAFaultAlsoWhenItHasToldNone) {
+  const auto run =
+      run_pulse({"components.beat.params.exit_code=3", "components.ear.params.listens_s=1"});
+  EXPECT_EQ(run.command.exit_code, 1) << run.text();
+  EXPECT_EQ(run.status(), "fault");
+  EXPECT_THAT(run.command.err, testing::ContainsRegex("process 'aside' \\(pid [0-9]+\\) ended with "
+                                                      "exit code 3"));
 }
 
 }  // namespace

@@ -235,7 +235,7 @@ class HostAgent {
   /// Closes the ways to the processes that still run. Without a main process they come to rest and
   /// end by themselves; one that does not is killed.
   void take_leave() {
-    if (told_end_) say("ended well");
+    if (told_end_) say("ended " + text_of_status(0));
     tell_rest();
     std::vector<pid_t> pids;
     for (const Process& process : processes_) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <unistd.h>
+
 #include <chrono>
 #include <filesystem>
 #include <stdexcept>
@@ -27,7 +29,10 @@ class Beat final : public Component {
     std::this_thread::sleep_for(std::chrono::duration<double>{parameters_.construction});
   }
 
-  ~Beat() override { hang_in(Parameters::HangsIn::destructor); }
+  ~Beat() override {
+    hang_in(Parameters::HangsIn::destructor);
+    if (parameters_.exit_code != 0) _exit(static_cast<int>(parameters_.exit_code));
+  }
 
   void step(Time now) override {
     throw_in(Parameters::ThrowsIn::step);

@@ -88,19 +88,20 @@ void ChildProcesses::hear(Child& child) {
     }
     if (word == "moving") child.moving = text;
     if (word == "timing") child.timing.push_back(text);
-    if (word == "fault") faults_.push_back(fmt::format("{}: {}", child.label, text));
+    if (word == "fault") {
+      child.told_fault = true;
+      faults_.push_back(fmt::format("{}: {}", child.label, text));
+    }
     if (word == "here") return welcome(child, text);
     if (word == "note") notes_.push_back(fmt::format("{}: {}", child.label, text));
-    if (word == "ended") on_ended(child, text, !text.starts_with("was killed"));
+    if (word == "ended") on_ended(child, text);
   }
 }
 
 void ChildProcesses::watch(Child& child) {
   if (child.host && !child.ended && child.control->lost()) {
-    on_ended(child,
-             fmt::format("fell silent for {:g} s: it is dead, or the network between is",
-                         to_seconds(HostLink::kSilence)),
-             false);
+    on_ended(child, fmt::format("fell silent for {:g} s: it is dead, or the network between is",
+                                to_seconds(HostLink::kSilence)));
   }
   int status = 0;
   while (child.pid > 0 && !child.ended &&
@@ -111,7 +112,7 @@ void ChildProcesses::watch(Child& child) {
       on_continued(child);
     } else {
       hear(child);  // what it said before
-      on_ended(child, text_of_status(status), WIFEXITED(status));
+      on_ended(child, text_of_status(status));
     }
   }
 }
@@ -124,10 +125,12 @@ void ChildProcesses::on_continued(Child& child) {
                                 child.pid, to_seconds(halted)));
 }
 
-void ChildProcesses::on_ended(Child& child, const std::string& how, bool well) {
+void ChildProcesses::on_ended(Child& child, const std::string& how) {
   child.ended = true;
   child.moving.clear();
-  if (child.told_end && well) return;  // its faults it has told
+  const bool is_accounted_for =
+      how == text_of_status(0) || (child.told_fault && how.starts_with("ended"));
+  if (child.told_end && is_accounted_for) return;
   const std::string pid = child.pid > 0 ? fmt::format(" (pid {})", child.pid) : "";
   const std::string lost = fmt::format("{}{} {}", child.label, pid, how);
   if (begun_ && !child.told_end && child.on_loss == OnFault::isolate) {
@@ -212,7 +215,7 @@ void ChildProcesses::give_up(Child& child, std::chrono::seconds timeout) {
   if (child.pid > 0) {
     kill(child.pid, SIGKILL);
   } else {
-    on_ended(child, fmt::format("has not ended within {} s", timeout.count()), false);
+    on_ended(child, fmt::format("has not ended within {} s", timeout.count()));
   }
 }
 

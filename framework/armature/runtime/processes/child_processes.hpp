@@ -95,7 +95,7 @@ class ChildProcesses {
     pid_t pid = 0;                               // 0: on another host
     HostLink* host = nullptr;                    // which
     std::string fingerprint = {}, welcome = {};  // of an agent
-    bool joined = false, ready = false, told_end = false, ended = false;
+    bool joined = false, ready = false, told_end = false, told_fault = false, ended = false;
     std::string waiting = {}, stop_cause = {};
     std::string moving = {};  // of one that has been told to stop
     std::optional<SteadyClock::time_point> halted_at = {};
@@ -105,8 +105,9 @@ class ChildProcesses {
   void hear(Child& child);
   void welcome(Child& agent, const std::string& fingerprint);
   void watch(Child& child);
-  /// `how`: "was killed by signal 9"; `well`: it has told what went wrong, if anything.
-  void on_ended(Child& child, const std::string& how, bool well);
+  /// `how`: "was killed by signal 9". That one was told to end and has is no fault where its exit
+  /// code is 0, and none beside the fault that it has told.
+  void on_ended(Child& child, const std::string& how);
   void on_continued(Child& child);
   bool may_end(const Child& child) const;
   void give_up(Child& child, std::chrono::seconds timeout);

@@ -40,9 +40,13 @@ void SocketChannel::send(std::string_view line) {
 std::optional<std::string> SocketChannel::receive() {
   if (file_ < 0 || lost_) return std::nullopt;
   std::array<char, kMaxControlLine> line{};
-  const ssize_t size = recv(file_, line.data(), line.size(), MSG_DONTWAIT);
+  ssize_t size = 0;
+  // An end that is gone and has left lines of ours unread tells that before its own last lines.
+  do {
+    size = recv(file_, line.data(), line.size(), MSG_DONTWAIT);
+  } while (size < 0 && (errno == ECONNRESET || errno == EINTR));
   if (size > 0) return std::string{line.data(), static_cast<std::size_t>(size)};
-  lost_ = size == 0 || (errno != EAGAIN && errno != EINTR);
+  lost_ = size == 0 || errno != EAGAIN;
   return std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace armature {
 namespace {
@@ -32,6 +33,21 @@ TEST(ControlChannel, AnEndThatIsGoneIsKnownWhenItsLastLineHasBeenRead) {
   EXPECT_EQ(theirs.receive(), std::nullopt);
   EXPECT_TRUE(theirs.lost());
   theirs.send("to nobody");
+}
+
+TEST(ControlChannel, TheLinesOfAnEndThatIsGoneAreReadAlsoWhenItLeftOursUnread) {
+  auto [ours, theirs] = SocketChannel::make();
+  {
+    SocketChannel gone{std::move(theirs)};
+    gone.send("fault 'beat' hangs");
+    gone.send("timing late");
+    ours.send("stop");
+  }
+  EXPECT_EQ(ours.receive(), "fault 'beat' hangs");
+  EXPECT_EQ(ours.receive(), "timing late");
+  EXPECT_FALSE(ours.lost());
+  EXPECT_EQ(ours.receive(), std::nullopt);
+  EXPECT_TRUE(ours.lost());
 }
 
 TEST(ControlChannel, AFullOneLosesLinesInsteadOfWaiting) {

@@ -5,8 +5,11 @@
 #include "record/record.hpp"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <chrono>
+#include <fstream>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <random>
@@ -16,7 +19,10 @@
 #include "armature/recording/recorded_processes.hpp"
 #include "armature/recording/recording_test.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
+#include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "exit_code.hpp"
+#include "record/destination.hpp"
 #include "record/merge.hpp"
 #include "record/unheard_writers.hpp"
 
@@ -46,6 +52,31 @@ McapChain chain_of(const std::filesystem::path& file) {
   McapReader reader{file, true};
   while (reader.next()) continue;
   return reader.chain();
+}
+
+/// A recording as a process leaves it: so many messages, one a millisecond from `first_ms` on.
+void write_part(const std::filesystem::path& file, const std::string& process, int first_ms,
+                const std::string& run = "1") {
+  McapWriter writer{file, {.chunk_bytes = 1024}};
+  writer.attach(
+      {.name = "lamp/lamp.yaml", .media_type = "application/yaml", .data = "armature: 1"});
+  writer.add(McapMetadata{.name = "armature.deployment",
+                          .values = {{"deployment", "lamp"}, {"run", run}}});
+  writer.add(McapMetadata{.name = "armature.process", .values = {{"process", process}}});
+  const auto schema = writer.add(
+      McapSchema{.name = "std_msgs/msg/String", .encoding = "ros2msg", .data = "string data\n"});
+  const auto channel = writer.add(McapChannel{.schema_id = schema,
+                                              .topic = "/a",
+                                              .message_encoding = "cdr",
+                                              .metadata = {{"process", process}}});
+  for (int i = 0; i < 100; ++i) {
+    const std::string text = payload(i);
+    const Time time{1'000'000 * (first_ms + 2 * i)};
+    writer.write(channel, static_cast<std::uint32_t>(i), time, time,
+                 std::as_bytes(std::span{text}));
+  }
+  writer.add(McapMetadata{.name = "armature.end", .values = {{"process", process}}});
+  writer.close();
 }
 
 TEST(DamagedRecording, IsToldOfAndRepairedToOneWithAChainOfItsOwn) {
@@ -116,6 +147,41 @@ TEST(DamagedRecording, OnAFullDiskIsNotRepairedAtTheCostOfTheFileThatWasThere) {
   }
 }
 
+TEST(ANameForARecording, ThatIsAPipeStaysOne) {
+  const RecordingFile part{"part"};
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder / "pipe.mcap";
+  write_part(part.path(), "main", 10);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const auto says = testing::ThrowsMessage<std::runtime_error>("cannot write '" + pipe.string() +
+                                                               "': it is no regular file");
+  EXPECT_THAT([&] { repair_recording(part.path(), pipe, true); }, says);
+  EXPECT_THAT([&] { merge_recordings({part.path()}, pipe, true); }, says);
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
+}
+
+TEST(ANameForARecording, ThatIsALinkKeepsPointing) {
+  const RecordingFile part{"part"};
+  write_part(part.path(), "main", 10);
+  const std::map<std::string, std::function<void(const std::filesystem::path&)>> writers{
+      {"repair", [&](const auto& out) { repair_recording(part.path(), out, true); }},
+      {"merge", [&](const auto& out) { merge_recordings({part.path()}, out, true); }},
+      {"record", [](const auto& out) {
+         Destination destination{out, true};
+         std::ofstream{destination.path()} << "newer";
+         destination.take();
+       }}};
+  for (const auto& [name, write] : writers) {
+    const TemporaryFolder folder;
+    const std::filesystem::path link = folder / "link.mcap", older = folder / "older.mcap";
+    std::ofstream{older} << "older";
+    std::filesystem::create_symlink("older.mcap", link);
+    write(link);
+    EXPECT_TRUE(std::filesystem::is_symlink(link)) << name;
+    EXPECT_NE(content_of(older), "older") << name;
+  }
+}
+
 TEST(ARecordingThatIsBeingWritten, IsReplacedByNobody) {
   const RecordingFile file{"damaged"}, written{"written"};
   {
@@ -170,19 +236,14 @@ TEST(DamagedRecording, IsToldOfByInfoAlsoWhenItWasRepaired) {
   }
 }
 
-TEST(DamagedRecording, OfAProcessIsJoinedAfterItWasRepaired) {
-  const RecordingFile cut{"part"}, repaired{"repaired"}, joined{"joined"};
-  {
-    McapWriter writer{cut.path(), {.chunk_bytes = 1024}};
-    writer.add({.name = std::string{kDeploymentMetadata},
-                .values = {{"deployment", "lamp"}, {"run", "1-2"}}});
-    writer.add({.name = std::string{kProcessMetadata}, .values = {{kProcessKey, "vision"}}});
-    write_all_but_the_end(writer, 100);
-  }
-  ASSERT_EQ(in_silence([&] { return repair_recording(cut.path(), repaired.path(), true); }), kOk);
-  EXPECT_EQ(in_silence([&] { return merge_recordings({repaired.path()}, joined.path(), true); }),
-            kOk);
-  EXPECT_EQ(recorded_processes(joined.path()), std::vector<std::string>{"vision"});
+/// As older versions repaired a part: what the process said of itself stands behind everything.
+void write_part_repaired_before(const std::filesystem::path& file, const std::string& process) {
+  McapWriter writer{file, {.chunk_bytes = 1024}};
+  write_all_but_the_end(writer, 100);
+  writer.add(McapMetadata{.name = "armature.deployment",
+                          .values = {{"deployment", "lamp"}, {"run", "1"}}});
+  writer.add(McapMetadata{.name = "armature.process", .values = {{"process", process}}});
+  writer.close();
 }
 
 TEST(DamagedRecording, WithAnyNameIsRepairedByTheLineThatIsTold) {
@@ -214,31 +275,6 @@ TEST(DamagedRecording, OfWhichNothingIsLeftIsNotSentToBeRepaired) {
       EXPECT_THAT(told, Not(HasSubstr("0.000 s by"))) << bytes << " bytes";
     }
   }
-}
-
-/// A recording as a process leaves it: so many messages, one a millisecond from `first_ms` on.
-void write_part(const std::filesystem::path& file, const std::string& process, int first_ms,
-                const std::string& run = "1") {
-  McapWriter writer{file, {.chunk_bytes = 1024}};
-  writer.attach(
-      {.name = "lamp/lamp.yaml", .media_type = "application/yaml", .data = "armature: 1"});
-  writer.add(McapMetadata{.name = "armature.deployment",
-                          .values = {{"deployment", "lamp"}, {"run", run}}});
-  writer.add(McapMetadata{.name = "armature.process", .values = {{"process", process}}});
-  const auto schema = writer.add(
-      McapSchema{.name = "std_msgs/msg/String", .encoding = "ros2msg", .data = "string data\n"});
-  const auto channel = writer.add(McapChannel{.schema_id = schema,
-                                              .topic = "/a",
-                                              .message_encoding = "cdr",
-                                              .metadata = {{"process", process}}});
-  for (int i = 0; i < 100; ++i) {
-    const std::string text = payload(i);
-    const Time time{1'000'000 * (first_ms + 2 * i)};
-    writer.write(channel, static_cast<std::uint32_t>(i), time, time,
-                 std::as_bytes(std::span{text}));
-  }
-  writer.add(McapMetadata{.name = "armature.end", .values = {{"process", process}}});
-  writer.close();
 }
 
 TEST(JoinedRecording, HasTheMessagesOfAllInTheOrderOfTheirTimesAndTheRestOnce) {

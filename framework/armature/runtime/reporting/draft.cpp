@@ -13,9 +13,17 @@
 
 namespace armature {
 
-Draft::Draft(std::filesystem::path named, std::string_view purpose, mode_t mode)
+Draft::Draft(std::filesystem::path named, std::string_view purpose, mode_t mode, Link link)
     : named_{std::move(named)} {
   constexpr int kTries = 100;
+  std::error_code none;
+  if (link == Link::keeps_pointing && std::filesystem::is_symlink(named_, none)) {
+    named_ = std::filesystem::weakly_canonical(named_);
+  }
+  if (std::filesystem::exists(named_, none) && !std::filesystem::is_regular_file(named_, none)) {
+    throw std::runtime_error(
+        fmt::format("cannot write '{}': it is no regular file", named_.string()));
+  }
   std::random_device lot;
   for (int i = 0; i < kTries; ++i) {
     path_ = fmt::format("{}.{}-{:06x}", named_.string(), purpose, lot() & 0xFFFFFFU);

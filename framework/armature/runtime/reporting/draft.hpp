@@ -13,9 +13,13 @@ namespace armature ARMATURE_EXPORT {
 /// before a power cut, is in its way, and nothing is replaced but by `give_name`.
 class Draft {
  public:
+  /// What becomes of a link that has the name.
+  enum class Link { keeps_pointing, is_replaced };
   /// "run.mcap.joining-5f31c0" for "run.mcap" and "joining". `mode`: its permissions, of which the
-  /// umask takes some. Throws std::runtime_error when it cannot be made.
-  Draft(std::filesystem::path named, std::string_view purpose, mode_t mode = 0600);
+  /// umask takes some. Throws std::runtime_error when it cannot be made, and for a name of a device
+  /// or a pipe, which must not become a file.
+  Draft(std::filesystem::path named, std::string_view purpose, mode_t mode = 0600,
+        Link link = Link::keeps_pointing);
   ~Draft();
   Draft(const Draft&) = delete;
   Draft& operator=(const Draft&) = delete;

@@ -26,18 +26,9 @@ bool write_all(int file, std::string_view text) {
 
 }  // namespace
 
-void write_atomically(const std::filesystem::path& target, std::string_view text, FileUse use) {
-  const bool is_report = use == FileUse::report;
-  std::error_code none;
-  const auto file = !is_report && std::filesystem::is_symlink(target, none)
-                        ? std::filesystem::weakly_canonical(target, none)
-                        : target;
-  // A device or a pipe must not become a file, not even one that a link points to.
-  if (std::filesystem::exists(file, none) && !std::filesystem::is_regular_file(file, none)) {
-    throw std::runtime_error{
-        fmt::format("cannot write '{}': it is no regular file", file.string())};
-  }
-  Draft draft{file, "draft", use == FileUse::named_by_user ? mode_t{0666} : mode_t{0600}};
+void write_atomically(const std::filesystem::path& file, std::string_view text, FileUse use) {
+  Draft draft{file, "draft", use == FileUse::named_by_user ? mode_t{0666} : mode_t{0600},
+              use == FileUse::report ? Draft::Link::is_replaced : Draft::Link::keeps_pointing};
   if (!write_all(draft.descriptor(), text)) {
     throw std::runtime_error{
         fmt::format("cannot write '{}': {}", file.string(), std::strerror(errno))};

@@ -31,10 +31,10 @@ class Part {
     step();
     read_origin(reader_);
     if (is_part()) return;
-    // In a recording that was repaired it stands behind everything.
-    McapReader whole{file};
-    while (whole.next()) continue;
-    read_origin(whole);
+    // In a recording that an older version repaired it stands behind everything.
+    whole_ = std::make_unique<McapReader>(file);
+    while (whole_->next()) continue;
+    read_origin(*whole_);
     if (is_part()) return;
     throw InvalidChoice(fmt::format(
         "'{}' is no part of a run: only what a deployment records of itself (record:) can be "
@@ -47,6 +47,8 @@ class Part {
   /// One, or those of a file that was joined before.
   const std::vector<std::string>& processes() const { return processes_; }
   const McapReader& reader() const { return reader_; }
+  /// Who has read what the part says of itself, before its first message is copied.
+  const McapReader& origin() const { return whole_ ? *whole_ : reader_; }
   /// When its next message was written; nothing: there is none.
   std::optional<Time> next_time() const {
     return next_ ? std::optional{next_->log_time} : std::nullopt;
@@ -87,6 +89,7 @@ class Part {
 
   std::filesystem::path file_;
   McapReader reader_;
+  std::unique_ptr<McapReader> whole_;
   MessageCopy copy_;
   std::optional<McapMessage> next_;
   std::string run_;
@@ -117,12 +120,12 @@ class Surroundings {
  public:
   explicit Surroundings(McapWriter& writer) : writer_{writer} {}
 
-  /// What the part has had up to now.
-  void copy_of(const Part& part) {
-    for (const McapAttachment& attachment : part.reader().attachments()) {
+  /// What a part has had up to now.
+  void copy_of(const McapReader& part) {
+    for (const McapAttachment& attachment : part.attachments()) {
       if (attached_.emplace(attachment.name, attachment.data).second) writer_.attach(attachment);
     }
-    for (const McapMetadata& metadata : part.reader().metadata()) {
+    for (const McapMetadata& metadata : part.metadata()) {
       if (told_.emplace(metadata.name, metadata.values).second) writer_.add(metadata);
     }
   }
@@ -153,11 +156,11 @@ JoinedRecording join_recordings(const std::vector<std::filesystem::path>& parts,
   for (const auto& file : parts) open.push_back(std::make_unique<Part>(file, writer));
   check_one_run(open);
   Surroundings surroundings{writer};
-  for (const auto& part : open) surroundings.copy_of(*part);
+  for (const auto& part : open) surroundings.copy_of(part->origin());
   while (Part* part = earliest(open)) part->copy();
   JoinedRecording joined;
   for (const auto& part : open) {
-    surroundings.copy_of(*part);
+    surroundings.copy_of(part->reader());
     for (const std::string& process : part->processes()) writer.add(part->metadata_of(process));
     joined.processes += part->processes().size();
     for (const std::string& problem : part->reader().problems()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 
@@ -34,6 +35,26 @@ class MessageCopy {
   const McapReader& from_;
   McapWriter& to_;
   std::map<std::uint16_t, std::uint16_t> schemas_{{0, 0}}, channels_;  // ids there by ids here
+};
+
+/// Copies the attachments and the metadata of a recording into another, where they stood among its
+/// messages.
+class SurroundingsCopy {
+ public:
+  /// Both outlive it.
+  SurroundingsCopy(const McapReader& from, McapWriter& to) : from_{from}, to_{to} {}
+
+  /// Those that have been read since the last time.
+  void write() {
+    while (attachments_ < from_.attachments().size())
+      to_.attach(from_.attachments()[attachments_++]);
+    while (metadata_ < from_.metadata().size()) to_.add(from_.metadata()[metadata_++]);
+  }
+
+ private:
+  const McapReader& from_;
+  McapWriter& to_;
+  std::size_t attachments_ = 0, metadata_ = 0;
 };
 
 }  // namespace armature

@@ -236,6 +236,43 @@ TEST(DamagedRecording, IsToldOfByInfoAlsoWhenItWasRepaired) {
   }
 }
 
+TEST(DamagedRecording, OfAProcessIsJoinedAfterItWasRepairedAndIsSeenThere) {
+  const RecordingFile cut{"part"}, repaired{"repaired"}, main{"main"}, joined{"joined"};
+  const RecordingFile twice{"twice"};
+  write_part(main.path(), "main", 10);
+  write_part(cut.path(), "vision", 11);
+  const std::string whole = cut.bytes();
+  cut.replace(whole.substr(0, places_of(mcap::Op::chunk, whole).at(3)));
+  ASSERT_EQ(in_silence([&] { return repair_recording(cut.path(), repaired.path(), true); }), kOk);
+  EXPECT_EQ(recorded_processes(repaired.path()), std::vector<std::string>{"vision"});
+  ASSERT_EQ(in_silence([&] {
+              return merge_recordings({main.path(), repaired.path()}, joined.path(), true);
+            }),
+            kOk);
+  EXPECT_THAT(recorded_processes(joined.path()), testing::ElementsAre("main", "vision"));
+  EXPECT_THAT(
+      [&] {
+        merge_recordings({joined.path(), repaired.path()}, twice.path(), true);
+      },
+      testing::ThrowsMessage<InvalidChoice>(HasSubstr("are both of process 'vision'")));
+}
+
+TEST(DamagedRecording, HasWhatItsProcessSaidOfItselfWhereItStood) {
+  const RecordingFile cut{"part"}, repaired{"repaired"};
+  write_part(cut.path(), "vision", 11);
+  ASSERT_EQ(in_silence([&] { return repair_recording(cut.path(), repaired.path(), true); }), kOk);
+  McapReader reader{repaired.path()};
+  ASSERT_TRUE(reader.next());
+  EXPECT_EQ(processes_of(reader.metadata()), std::vector<std::string>{"vision"});
+  EXPECT_EQ(reader.attachments().size(), 1U);
+  while (reader.next()) continue;
+  EXPECT_EQ(reader.attachments().size(), 1U);
+  std::vector<std::string> names;
+  for (const McapMetadata& metadata : reader.metadata()) names.push_back(metadata.name);
+  EXPECT_THAT(names, testing::ElementsAre("armature.deployment", "armature.process", "armature.end",
+                                          "armature.repaired"));
+}
+
 /// As older versions repaired a part: what the process said of itself stands behind everything.
 void write_part_repaired_before(const std::filesystem::path& file, const std::string& process) {
   McapWriter writer{file, {.chunk_bytes = 1024}};
@@ -244,6 +281,14 @@ void write_part_repaired_before(const std::filesystem::path& file, const std::st
                           .values = {{"deployment", "lamp"}, {"run", "1"}}});
   writer.add(McapMetadata{.name = "armature.process", .values = {{"process", process}}});
   writer.close();
+}
+
+TEST(DamagedRecording, ThatWasRepairedByAnOlderVersionIsSeenWhereItWasJoined) {
+  const RecordingFile old{"old"}, main{"main"}, joined{"joined"};
+  write_part(main.path(), "main", 10);
+  write_part_repaired_before(old.path(), "vision");
+  join_recordings({main.path(), old.path()}, joined.path());
+  EXPECT_THAT(recorded_processes(joined.path()), testing::ElementsAre("main", "vision"));
 }
 
 TEST(DamagedRecording, WithAnyNameIsRepairedByTheLineThatIsTold) {

@@ -41,9 +41,12 @@ int repair_recording(const std::filesystem::path& cut, const std::filesystem::pa
   Draft draft{whole, "repairing"};  // a full disk takes nothing that was there
   McapWriter writer{draft.path(), {.library = "armature " ARMATURE_VERSION}};
   MessageCopy copy{reader, writer};
-  while (const auto message = reader.next()) copy.write(*message);
-  for (const McapAttachment& attachment : reader.attachments()) writer.attach(attachment);
-  for (const McapMetadata& metadata : reader.metadata()) writer.add(metadata);
+  SurroundingsCopy surroundings{reader, writer};
+  while (const auto message = reader.next()) {
+    surroundings.write();
+    copy.write(*message);
+  }
+  surroundings.write();
   writer.add(repaired_from(cut, reader));
   writer.close();
   draft.give_name();

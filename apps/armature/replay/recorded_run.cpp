@@ -56,12 +56,13 @@ bool RecordedRun::is_mine(const std::map<std::string, std::string>& metadata) co
   return process == metadata.end() || process->second == process_;
 }
 
-/// They stand at the beginning, but behind everything in a recording that was repaired.
+/// They stand at the beginning, but behind everything in a recording that an older version
+/// repaired.
 void RecordedRun::read_metadata(const std::filesystem::path& file) {
   McapReader reader{file};
   const auto has_all = [&] {
-    return std::ranges::any_of(reader.metadata(), [](const McapMetadata& metadata) {
-      return metadata.name == kComponentMetadata;
+    return std::ranges::any_of(reader.metadata(), [&](const McapMetadata& metadata) {
+      return metadata.name == kComponentMetadata && is_mine(metadata.values);
     });
   };
   while (reader.next() && !has_all()) continue;

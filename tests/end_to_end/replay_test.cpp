@@ -7,6 +7,7 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -54,6 +55,48 @@ class Replay : public testing::Test {
       if (attachment.name == name) return attachment.data;
     }
     return {};
+  }
+  /// As a queue leaves it that dropped the last `count` activations, or all; when all, the count of
+  /// them that stands at its end is left out, too.
+  static void copy_without_last_activations(const std::string& from, std::uint32_t count,
+                                            const std::string& to) {
+    const auto is_activation = [](const McapMessage& message) {
+      return message.channel->topic.ends_with("/activations");
+    };
+    std::uint32_t last = 0;
+    {
+      McapReader reader{from};
+      while (const auto message = reader.next()) {
+        if (is_activation(*message)) last = message->sequence;
+      }
+    }
+    McapReader reader{from};
+    McapWriter writer{to, {}};
+    std::map<std::uint16_t, std::uint16_t> channels;
+    std::size_t attachments = 0, metadata = 0;
+    const auto copy_surroundings = [&] {
+      while (attachments < reader.attachments().size()) {
+        writer.attach(reader.attachments()[attachments++]);
+      }
+      while (metadata < reader.metadata().size()) {
+        McapMetadata one = reader.metadata()[metadata++];
+        if (count >= last) one.values.erase("activations");
+        writer.add(one);
+      }
+    };
+    while (const auto message = reader.next()) {
+      copy_surroundings();
+      if (is_activation(*message) && (count >= last || message->sequence > last - count)) continue;
+      if (!channels.contains(message->channel->id)) {
+        McapChannel channel = *message->channel;
+        channel.schema_id = writer.add(McapSchema{reader.schemas().at(channel.schema_id)});
+        channels[message->channel->id] = writer.add(channel);
+      }
+      writer.write(channels[message->channel->id], message->sequence, message->log_time,
+                   message->publish_time, message->data);
+    }
+    copy_surroundings();
+    writer.close();
   }
   static json check(std::vector<std::string> arguments, int exit_code) {
     arguments.insert(arguments.begin(), {armature(), "replay", "--check", "--json"});
@@ -388,6 +431,19 @@ TEST_F(Replay, ADamagedRecordingAccusesNobody) {
   EXPECT_FALSE(checked["complete"]);
   EXPECT_THAT(checked["problems"].dump(), HasSubstr("everything is replayed up to there"));
   EXPECT_GT(checked["outputs"], 0);
+}
+
+TEST_F(Replay, ARecordingWithoutItsLastActivationsIsIncompleteAndSaysHowManyAreMissing) {
+  record_needle();
+  const std::string shorter = file("shorter.mcap");
+  copy_without_last_activations(file(), 20, shorter);
+  const json checked = check({shorter}, 1);
+  EXPECT_EQ(checked["identical"], json{}) << "nobody knows";
+  EXPECT_FALSE(checked["complete"]);
+  ASSERT_EQ(checked["problems"].size(), 1U) << checked["problems"];
+  EXPECT_THAT(std::string{checked["problems"][0]},
+              testing::MatchesRegex("the last 20 of the [0-9]+ activations of process 'main' are "
+                                    "missing"));
 }
 
 TEST_F(Replay, ARepairedRecordingIsIncompleteAndSaysWhatItWasMadeOf) {

@@ -29,7 +29,7 @@ std::uint32_t number_of(std::string_view text,
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   if (error == std::errc{} && end == text.data() + text.size() && number <= max) return number;
   throw std::runtime_error(
-      fmt::format("the recording numbers its ports by {}", config::in_quotes(text)));
+      fmt::format("the recording has a number that is none: {}", config::in_quotes(text)));
 }
 
 /// What stands behind `beginning`, or nothing.
@@ -184,11 +184,18 @@ std::vector<std::string> RecordedRun::problems() const {
   for (const std::string& problem : reader_.problems()) add(problem);
   // Of what was joined, the file is whole where the part was not.
   for (const std::string& repair : repairs_told_by(reader_.metadata(), process_)) add(repair);
-  const auto is_end = [&](const McapMetadata& metadata) {
+  const auto end = std::ranges::find_if(reader_.metadata(), [&](const McapMetadata& metadata) {
     return metadata.name == kEndMetadata && is_mine(metadata.values);
-  };
-  if (std::ranges::none_of(reader_.metadata(), is_end)) {
+  });
+  if (end == reader_.metadata().end()) {
     add(fmt::format("the recording of process '{}' has no end", process_));
+    return problems;
+  }
+  const auto count = end->values.find(kActivationsKey);
+  if (count == end->values.end()) return problems;  // of an older version
+  if (const std::uint32_t all = number_of(count->second); all > last_activation_) {
+    add(fmt::format("the last {} of the {} activations of process '{}' are missing",
+                    all - last_activation_, all, process_));
   }
   return problems;
 }

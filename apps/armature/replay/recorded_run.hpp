@@ -54,7 +54,7 @@ class RecordedRun {
   /// A sample of an activation that was returned last; nothing when it was not recorded.
   std::optional<std::span<const std::byte>> sample(std::uint32_t writer,
                                                    std::uint64_t sequence) const;
-  /// After the last activation: what is wrong with the file.
+  /// After the last activation: what is wrong with the file. Throws std::runtime_error.
   std::vector<std::string> problems() const;
   /// After the last activation: of components whose last ones were lost, or did not return, what
   /// became of them.

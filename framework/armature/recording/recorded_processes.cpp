@@ -10,8 +10,8 @@ namespace armature {
 
 std::vector<std::string> recorded_processes(const std::filesystem::path& file) {
   McapReader reader{file};
-  // They stand at the beginning, but behind everything in a recording that an older
-  // version repaired.
+  // They stand at the beginning, but behind everything in a recording that an older version
+  // repaired.
   while (reader.next() && processes_of(reader.metadata()).empty()) continue;
   std::vector<std::string> processes = processes_of(reader.metadata());
   if (processes.empty()) processes.emplace_back();

@@ -19,6 +19,8 @@ inline constexpr std::string_view kRepairedMetadata = "armature.repaired";  // b
 /// Key of a channel with samples of one writer in another process: they have the numbers that it
 /// gave them, and so have those that its own process recorded.
 inline constexpr const char* kNumberedKey = "numbered";
+/// Key of the metadata kEndMetadata: how many activations the process has numbered.
+inline constexpr const char* kActivationsKey = "activations";
 /// Keys of the metadata of a process on another host than the main one: its name, and by how many
 /// seconds the deployment's clock, by which everything is recorded, was ahead of its own.
 inline constexpr const char* kHostKey = "host";

@@ -315,10 +315,11 @@ std::string RunRecorder::close(const std::optional<McapAttachment>& figures) {
 
 Duration RunRecorder::clock_ahead() const { return clock_.now() - SystemClock{}.now(); }
 
-/// What a replay cannot see in the activations: those that were lost last, and calls that have not
-/// returned. Where this is missing, the recording was cut off.
+/// What a replay cannot see in the activations: how many there were, those that were lost last, and
+/// calls that have not returned. Where this is missing, the recording was cut off.
 void RunRecorder::add_end() {
-  std::map<std::string, std::string> values{{kProcessKey, options_.description.process_()}};
+  std::map<std::string, std::string> values{{kProcessKey, options_.description.process_()},
+                                            {kActivationsKey, fmt::format("{}", count_)}};
   if (!other_host_.empty()) {
     values[kClockAheadKey] = fmt::format("{:.6f}", to_seconds(clock_ahead()));
   }

@@ -24,7 +24,7 @@ class StopWatch final : public RunWatch {
     if (--asks_left_ > 0) return std::nullopt;
     return "enough";
   }
-  void stopping(const std::string& cause) override { causes.push_back(cause); }
+  void stopping(const std::string& cause, bool) override { causes.push_back(cause); }
 
   std::vector<std::string> causes;
 

@@ -2,10 +2,12 @@
 // The same file in two processes, over DDS.
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
 
 namespace armature::test {
@@ -61,6 +63,30 @@ TEST(TwoProcesses, OneThatEndsWithAnotherExitCodeThan0IsAFaultAlsoWhenItHasToldN
   EXPECT_EQ(run.status(), "fault");
   EXPECT_THAT(run.command.err, testing::ContainsRegex("process 'aside' \\(pid [0-9]+\\) ended with "
                                                       "exit code 3"));
+}
+
+TEST(TwoProcesses, ThatCameToTheEndOfTheirStoryKnowOfNoTrouble) {
+  const std::vector<std::vector<std::string>> ends{
+      {"components.ear.params.listens_s=1"},
+      {"components.beat.params.beats=5", "components.beat.params.ends=true",
+       "components.ear.params.listens_s=1000"}};
+  for (std::vector<std::string> settings : ends) {
+    const TemporaryFolder folder;
+    settings.push_back("record={file: \"" + (folder / "box.mcap").string() +
+                       "\", around_faults_s: 1}");
+    const auto run = run_pulse(settings);
+    EXPECT_EQ(run.status(), "ok") << run.text();
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path())) << run.text();
+  }
+}
+
+TEST(TwoProcesses, OneThatFailsIsATroubleInBoth) {
+  const TemporaryFolder folder;
+  run_pulse({"components.beat.params.throws_in=step", "components.ear.params.listens_s=1000",
+             "record={file: \"" + (folder / "box.mcap").string() + "\", around_faults_s: 1}"});
+  for (const char* box : {"box.mcap", "box.aside.mcap"}) {
+    EXPECT_TRUE(std::filesystem::exists(folder / box)) << box;
+  }
 }
 
 }  // namespace

@@ -126,8 +126,9 @@ std::optional<std::string> MainWatch::stop_cause() {
   return lost;
 }
 
-void MainWatch::stopping(const std::string& cause) {
+void MainWatch::stopping(const std::string& cause, bool scenario_over) {
   tell_step("stopping: " + cause);
+  if (scenario_over) children_->send("over");
   children_->send("stop " + cause);
 }
 
@@ -170,6 +171,7 @@ void ChildWatch::say(std::string& last, std::string line) {
 void ChildWatch::hear() {
   while (const auto line = control_.receive()) {
     started_ = started_ || *line == "start";
+    scenario_over_ = scenario_over_ || *line == "over";
     told_end_ = told_end_ || *line == "end";
     if (line->starts_with("stop ")) stop_ = line->substr(5);
     if (line->starts_with("clock ")) follow_clock_(Duration{std::stoll(line->substr(6))});
@@ -198,8 +200,9 @@ std::optional<std::string> ChildWatch::stop_cause() {
   return interruption_now();
 }
 
-void ChildWatch::stopping(const std::string& cause) {
+void ChildWatch::stopping(const std::string& cause, bool scenario_over) {
   if (stop_.empty()) {
+    if (scenario_over) control_.send("over");
     control_.send("stop " + cause);
     own_stop_ = cause;
     requested_at_ = SteadyClock::now();

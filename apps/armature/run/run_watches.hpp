@@ -48,7 +48,8 @@ class MainWatch final : public ProcessWatch {
 
   bool may_start(const std::optional<std::string>& waiting) override;
   std::optional<std::string> stop_cause() override;
-  void stopping(const std::string& cause) override;
+  bool scenario_over() const override { return children_->scenario_over(); }
+  void stopping(const std::string& cause, bool scenario_over) override;
   bool may_end(const std::vector<std::string>& moving, Duration left) override;
   void ending() override;
 
@@ -88,7 +89,8 @@ class ChildWatch final : public ProcessWatch {
 
   bool may_start(const std::optional<std::string>& waiting) override;
   std::optional<std::string> stop_cause() override;
-  void stopping(const std::string& cause) override;
+  bool scenario_over() const override { return scenario_over_; }
+  void stopping(const std::string& cause, bool scenario_over) override;
   bool may_end(const std::vector<std::string>& moving, Duration left) override;
 
   /// Who is told the main process' clock as the agent of this host sees it.
@@ -112,7 +114,7 @@ class ChildWatch final : public ProcessWatch {
 
   SocketChannel control_;
   std::function<void(Duration)> follow_clock_ = [](Duration) {};
-  bool started_ = false, told_end_ = false;
+  bool started_ = false, scenario_over_ = false, told_end_ = false;
   std::string stop_;      // as the main process said
   std::string own_stop_;  // which it is to answer
   SteadyClock::time_point requested_at_;

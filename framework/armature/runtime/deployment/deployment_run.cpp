@@ -25,8 +25,9 @@ void Deployment::run(RunWatch& watch) {
     const std::string cause = run_until_stop(watch);
     unwell_ = find_unwell();
     stopping_ = true;
-    if (!scenario_over_) mark_trouble(StatusReporter::State::degraded);
-    watch.stopping(cause);
+    const bool scenario_over = scenario_over_ || watch.scenario_over();
+    if (!scenario_over) mark_trouble(StatusReporter::State::degraded);
+    watch.stopping(cause, scenario_over);
     come_to_rest(watch);
   }
   watch.ending();

@@ -24,8 +24,13 @@ class RunWatch {
   /// Why the run is to stop, once something outside of its components says so. Asked before the
   /// start, too, and may throw there as may_start does.
   virtual std::optional<std::string> stop_cause() { return std::nullopt; }
-  /// Once: the run is stopping.
-  virtual void stopping(const std::string& cause) { static_cast<void>(cause); }
+  /// Whether the scenario is over in another process, so that this stop is no trouble.
+  virtual bool scenario_over() const { return false; }
+  /// Once: the run is stopping, because the scenario is over here or there, or for another reason.
+  virtual void stopping(const std::string& cause, bool scenario_over) {
+    static_cast<void>(cause);
+    static_cast<void>(scenario_over);
+  }
   /// While the run is stopping: whether it may end. `moving` names the components that are not at
   /// rest, `left` is how long they may still take.
   virtual bool may_end(const std::vector<std::string>& moving, Duration left) {

@@ -82,6 +82,7 @@ void ChildProcesses::hear(Child& child) {
     if (word == "joined") child.joined = true;
     if (word == "waiting") child.waiting = text;
     if (word == "ready") child.ready = true;
+    if (word == "over") scenario_over_ = true;
     if (word == "stop") {
       child.stop_cause = fmt::format("{}: {}", child.label, text);
       if (!child.is_agent()) child.moving = kNotSaid;

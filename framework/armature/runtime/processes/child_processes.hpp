@@ -25,11 +25,12 @@ namespace armature ARMATURE_EXPORT {
 ///   joined            its components are constructed and its topics are there
 ///   waiting TEXT      which of its topics has not met its other end
 ///   ready             all have; it waits for `start`
+///   over              the scenario is over, and `stop` follows
 ///   stop TEXT         it is stopping, and why
 ///   moving TEXT       while it is stopping: what is not at rest; nothing when all is
 ///   fault TEXT        what failed in it
 ///   timing TEXT       how late and how long an executor or a component of it was (run_timing.hpp)
-/// and the main one: start, stop TEXT, end. A process whose main one is gone comes to rest by
+/// and the main one: start, over, stop TEXT, end. A process whose main one is gone comes to rest by
 /// itself and ends. The agent of a host says, of itself and of its processes:
 ///   here FINGERPRINT  it waits to be welcomed; `refuse TEXT`: it does not fit
 ///   note TEXT         what the operator is to know
@@ -69,6 +70,8 @@ class ChildProcesses {
   std::optional<std::string> waiting() const;
   /// Why the run is to stop: one is stopping, or has ended by itself and is not isolated.
   std::optional<std::string> stop_cause() const;
+  /// Whether it is over in one of them.
+  bool scenario_over() const { return scenario_over_; }
   /// What the operator is to know, each once: how one was lost without which the run goes on, what
   /// the agent of a host says.
   std::optional<std::string> next_note();
@@ -114,7 +117,7 @@ class ChildProcesses {
 
   std::vector<std::unique_ptr<HostLink>> hosts_;
   std::deque<Child> children_;  // those of a host go before it
-  bool begun_ = false;
+  bool begun_ = false, scenario_over_ = false;
   std::deque<std::string> notes_;  // not told yet
   std::vector<std::string> faults_;
 };

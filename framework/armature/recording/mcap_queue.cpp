@@ -96,20 +96,27 @@ std::uint16_t McapQueue::add_channel(const std::string& topic, const std::string
 
 void McapQueue::write(std::uint16_t channel, std::uint32_t sequence, Time log_time,
                       Time publish_time, std::vector<std::byte> data) {
-  const std::size_t bytes = data.size();
-  put(Message{channel, sequence, log_time, publish_time, std::move(data)}, bytes);
+  put(Message{channel, sequence, log_time, publish_time, std::move(data)});
 }
 
-void McapQueue::put(Item item, std::size_t bytes) {
+/// Of the room for what waits [byte]: what is no message takes none, and has always room.
+std::size_t McapQueue::bytes_of(const Item& item) {
+  const auto* message = std::get_if<Message>(&item);
+  return message ? message->data.size() : 0;
+}
+
+void McapQueue::put(Item item) {
+  const std::size_t bytes = bytes_of(item);
   {
     std::unique_lock lock{mutex_};
     const auto has_space = [&] {
-      return waiting_bytes_ + bytes <= kMaxWaiting || waiting_.empty() || !problem_.empty();
+      return bytes == 0 || waiting_bytes_ + bytes <= kMaxWaiting || waiting_.empty() ||
+             !problem_.empty();
     };
     if (when_full_ == WhenFull::wait) space_.wait(lock, has_space);
     if (!problem_.empty()) return;
     if (!has_space()) {
-      if (const auto* message = std::get_if<Message>(&item)) ++dropped_[message->channel];
+      ++dropped_[std::get<Message>(item).channel];
       return;
     }
     waiting_bytes_ += bytes;
@@ -140,11 +147,14 @@ void McapQueue::run() {
   while (!ends_ || !waiting_.empty()) {
     news_.wait_until(lock, chunk_end, [this] { return ends_ || !waiting_.empty(); });
     std::deque<Item> taken = std::exchange(waiting_, {});
-    const std::size_t bytes = waiting_bytes_;
     lock.unlock();
     std::string problem;
     try {
-      for (Item& item : taken) handle(item);
+      for (; !taken.empty(); taken.pop_front()) {
+        const std::size_t bytes = bytes_of(taken.front());
+        handle(taken.front());
+        give_back(bytes);
+      }
       if (std::chrono::steady_clock::now() >= chunk_end) {
         if (writer_) writer_->end_chunk();
         chunk_end = std::chrono::steady_clock::now() + kLongestChunk;
@@ -153,11 +163,19 @@ void McapQueue::run() {
       problem = error.what();
     }
     lock.lock();
-    waiting_bytes_ -= bytes;
     problem_ = std::move(problem);
+    if (problem_.empty()) continue;
     space_.notify_all();
-    if (!problem_.empty()) return;
+    return;
   }
+}
+
+void McapQueue::give_back(std::size_t bytes) {
+  {
+    const std::scoped_lock lock{mutex_};
+    waiting_bytes_ -= bytes;
+  }
+  space_.notify_all();
 }
 
 void McapQueue::handle(Item& item) {

@@ -20,9 +20,9 @@
 namespace armature ARMATURE_EXPORT {
 
 /// Writes an MCAP file on a thread of its own, so that nobody waits for the disk. Messages that
-/// come faster than they can be written are dropped and counted, or waited for. Or keeps the last
-/// seconds in memory, and writes a file around each moment that is marked. All functions may be
-/// called on any thread.
+/// come faster than they can be written are dropped and counted, or waited for; all else is
+/// written. Or keeps the last seconds in memory, and writes a file around each moment that is
+/// marked. All functions may be called on any thread.
 class McapQueue {
  public:
   static constexpr std::size_t kMaxWaiting = 256U << 20;  // [byte]
@@ -50,15 +50,15 @@ class McapQueue {
   /// of a type that is not known here only the name can be told. One topic may have several.
   std::uint16_t add_channel(const std::string& topic, const std::string& dds_type,
                             std::map<std::string, std::string> metadata = {});
-  void add(McapMetadata metadata) { put(std::move(metadata), 0); }
-  void attach(McapAttachment attachment) { put(std::move(attachment), 0); }
+  void add(McapMetadata metadata) { put(std::move(metadata)); }
+  void attach(McapAttachment attachment) { put(std::move(attachment)); }
   /// A message of a channel, as McapWriter takes it.
   void write(std::uint16_t channel, std::uint32_t sequence, Time log_time, Time publish_time,
              std::vector<std::byte> data);
 
   /// A moment, by the log time of messages, around which everything is to be written. One that
   /// comes while a file is being written goes into that.
-  void mark(Time moment) { put(Mark{moment}, 0); }
+  void mark(Time moment) { put(Mark{moment}); }
 
   /// Why it cannot write any more; empty: all is well.
   std::string problem() const;
@@ -89,7 +89,9 @@ class McapQueue {
   };
   using Item = std::variant<McapSchema, McapChannel, McapMetadata, McapAttachment, Message, Mark>;
 
-  void put(Item item, std::size_t bytes);
+  static std::size_t bytes_of(const Item& item);
+  void put(Item item);
+  void give_back(std::size_t bytes);
   void end_thread();
   void run();
   void handle(Item& item);

@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/recording/mcap_queue.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
+#include <sys/ioctl.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -174,6 +179,83 @@ TEST_F(McapQueueTest, TellsWhatItCannotWriteAndTakesNoMore) {
   std::uint64_t readable = 0;
   while (reader.next()) ++readable;
   EXPECT_EQ(readable, queue.messages());
+}
+
+/// The end of a pipe that is read only when it is told to.
+class SlowReader {
+ public:
+  explicit SlowReader(const fs::path& pipe) {
+    EXPECT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    descriptor_ = ::open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    EXPECT_GE(descriptor_, 0);
+  }
+  ~SlowReader() { ::close(descriptor_); }
+  SlowReader(const SlowReader&) = delete;
+  SlowReader& operator=(const SlowReader&) = delete;
+
+  /// Reads what is there; the end of all that came is kept.
+  std::size_t read() {
+    constexpr std::size_t kKept = 1U << 20;
+    std::vector<char> part(kKept);
+    const ssize_t bytes = ::read(descriptor_, part.data(), part.size());
+    if (bytes <= 0) return 0;
+    last_.append(part.data(), static_cast<std::size_t>(bytes));
+    if (last_.size() > 2 * kKept) last_.erase(0, last_.size() - kKept);
+    return static_cast<std::size_t>(bytes);
+  }
+  const std::string& last() const { return last_; }
+  /// How much can be read [byte].
+  int waiting() const {
+    int bytes = 0;
+    EXPECT_EQ(ioctl(descriptor_, FIONREAD, &bytes), 0);
+    return bytes;
+  }
+
+ private:
+  int descriptor_ = -1;
+  std::string last_;
+};
+
+TEST_F(McapQueueTest, WhatIsNoMessageIsWrittenHoweverMuchWaits) {
+  constexpr std::size_t kMegabyte = 1U << 20;
+  const fs::path pipe = folder_ / "pipe.mcap";
+  SlowReader reader{pipe};
+  McapQueue queue{pipe, {.compress = false}, McapQueue::WhenFull::drop};
+  const auto channel = queue.add_channel("/a", kType);
+  const auto write_bytes = [&](std::size_t bytes) {
+    queue.write(channel, 1, {}, {}, std::vector<std::byte>(bytes));
+  };
+  const auto dropped = [&] {
+    std::uint64_t all = 0;
+    for (const auto& [id, count] : queue.dropped()) all += count;
+    return all;
+  };
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{20};
+  const auto is_time_left = [&] { return std::chrono::steady_clock::now() < end; };
+  write_bytes(kMegabyte);
+  // Nobody reads: the first one is being written, and the others wait behind it.
+  while (reader.waiting() < 20'000 && is_time_left()) std::this_thread::yield();
+  while (dropped() == 0) write_bytes(kMegabyte);
+  // Once those are being written one more is taken, for which there is no room.
+  for (std::uint64_t before = 0; before != dropped() && is_time_left();) {
+    reader.read();
+    before = dropped();
+    write_bytes(8 * kMegabyte);
+  }
+  queue.add({.name = "what became of it", .values = {{"lost", "many"}}});
+  queue.attach({.name = "figures.json", .media_type = "application/json", .data = "{}"});
+  std::atomic<bool> closed{false};
+  std::thread closing{[&] {
+    queue.close();
+    closed = true;
+  }};
+  for (bool is_end = false; !is_end;) {
+    const bool was_closed = closed;
+    is_end = reader.read() == 0 && was_closed;
+  }
+  closing.join();
+  EXPECT_THAT(reader.last(), HasSubstr("what became of it"));
+  EXPECT_THAT(reader.last(), HasSubstr("figures.json"));
 }
 
 TEST_F(McapQueueTest, WhoseFileIsRemovedMovedOrReplacedSaysSoWithinASecondAndClosesNone) {

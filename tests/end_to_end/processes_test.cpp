@@ -2,8 +2,11 @@
 // The same file in two processes, over DDS.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <filesystem>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -87,6 +90,29 @@ TEST(TwoProcesses, OneThatFailsIsATroubleInBoth) {
   for (const char* box : {"box.mcap", "box.aside.mcap"}) {
     EXPECT_TRUE(std::filesystem::exists(folder / box)) << box;
   }
+}
+
+TEST(TwoProcesses, OneWhoseRecordingCannotBeEndedIsAFault) {
+  const TemporaryFolder folder;
+  const std::filesystem::path part = folder / "run.aside.mcap", copy = folder / "copy.mcap";
+  Command run{deployment_command(pulse({"components.ear.params.listens_s=4",
+                                        "record.file=" + (folder / "run.mcap").string()})),
+              pulse({}).options};
+  const auto is_long = [&] {
+    std::error_code none;
+    const auto bytes = std::filesystem::file_size(part, none);
+    return !none && bytes > 20'000;
+  };
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{60};
+  while (!is_long() && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  std::filesystem::copy_file(part, copy);
+  std::filesystem::rename(copy, part);
+  const CommandResult result = run.finish(std::chrono::seconds{60});
+  EXPECT_EQ(result.exit_code, 1) << result.out << result.err;
+  EXPECT_NE(result.err.find("process 'aside': its recording has no end"), std::string::npos)
+      << result.err;
 }
 
 }  // namespace

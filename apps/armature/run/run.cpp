@@ -231,8 +231,11 @@ int run_other(const RunOptions& options, const Process& process, Deployment& dep
   begin_recording(deployment, process.name, process.origin.start);
   watch.on_clock([&](Duration offset) { deployment.follow_clock(offset); });
   deployment.run(watch);
-  const int code = conclude_child(options, deployment, watch, end);
-  deployment.end_recording();
+  int code = conclude_child(options, deployment, watch, end);
+  if (!deployment.end_recording()) {
+    watch.tell_fault("its recording has no end");
+    code = kFailed;
+  }
   console.flush();
   leave_if_necessary(deployment, watch, code);
   return code;

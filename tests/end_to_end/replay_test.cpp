@@ -583,6 +583,15 @@ TEST_F(Replay, WhatWasRecordedIsPublishedAgainUnderNamesOfItsOwn) {
   EXPECT_THAT(played.out, HasSubstr("topics under /replay"));
 }
 
+TEST_F(Replay, AGapIsToldWithTheTimeForWhichNothingWasRecorded) {
+  record_needle();
+  const CommandResult replay =
+      run_command({armature(), "replay", file(), "--rate", "1e-5", "--timeout", "3", "--domain",
+                   std::to_string(unique_dds_domain())});
+  EXPECT_THAT(replay.err, testing::ContainsRegex("the next message comes in [0-9]+ s: none was "
+                                                 "recorded for 0\\.0[0-9]+ s; a higher --rate"));
+}
+
 TEST_F(Replay, WhatCannotBePublishedIsToldWithTheReason) {
   record_needle();
   const std::string domain = std::to_string(unique_dds_domain());

@@ -171,13 +171,14 @@ class Player {
     ++messages_;
   }
 
-  static void tell_gap(Duration left) {
+  void tell_gap(Duration left) const {
     constexpr double kLong_s = 5;
     if (to_seconds(left) < kLong_s) return;
-    fmt::print(stderr,
-               "armature: the next message comes in {:.0f} s: none was recorded for that long; "
-               "--rate makes it shorter\n",
-               to_seconds(left));
+    fmt::print(
+        stderr,
+        "armature: the next message comes in {:.0f} s: none was recorded for {:.3g} s; a higher "
+        "--rate makes it shorter\n",
+        to_seconds(left), to_seconds(left) * options_.rate);
   }
 
   bool wait_until(Time due) const {

@@ -446,6 +446,18 @@ TEST_F(Replay, ARecordingWithoutItsLastActivationsIsIncompleteAndSaysHowManyAreM
                                     "missing"));
 }
 
+TEST_F(Replay, OfWhichNothingWasRepeatedIsNotCalledIdentical) {
+  record_needle();
+  const std::string nothing = file("nothing.mcap");
+  copy_without_last_activations(file(), std::numeric_limits<std::uint32_t>::max(), nothing);
+  const json checked = check({nothing}, 1);
+  EXPECT_EQ(checked["activations"], 0);
+  EXPECT_EQ(checked["identical"], json{}) << "nobody knows";
+  EXPECT_FALSE(checked["complete"]);
+  const CommandResult told = run_command({armature(), "replay", "--check", nothing});
+  EXPECT_THAT(told.out, testing::StartsWith("incomplete"));
+}
+
 TEST_F(Replay, ARepairedRecordingIsIncompleteAndSaysWhatItWasMadeOf) {
   record_needle();
   const std::string cut = file("cut.mcap"), whole = file("whole.mcap");

@@ -18,7 +18,6 @@
 namespace armature {
 namespace {
 
-constexpr Duration kKept = seconds(5);
 constexpr std::size_t kMinKept = 8;
 constexpr std::uint32_t kMaxInputs = 1000;  // of a component
 
@@ -171,6 +170,12 @@ bool RecordedRun::is_next(std::uint32_t sequence) {
   return false;
 }
 
+/// What a call has read is older than the call when that is told, after its end.
+void RecordedRun::keep_for_call(Duration longest) {
+  constexpr Duration kBefore = seconds(1);
+  kept_for_ = std::max(kept_for_, longest + kBefore);
+}
+
 void RecordedRun::keep_at_least(const std::string& topic, std::size_t samples) {
   std::size_t& kept = min_kept_[topic];
   kept = std::max(kept, samples + kMinKept);
@@ -228,7 +233,7 @@ void RecordedRun::keep(const McapMessage& message) {
                      .cdr = {message.data.begin(), message.data.end()}});
   const auto known = min_kept_.find(message.channel->topic);
   const std::size_t min_kept = known == min_kept_.end() ? kMinKept : known->second;
-  while (samples.size() > min_kept && samples.front().at < message.log_time - kKept) {
+  while (samples.size() > min_kept && samples.front().at < message.log_time - kept_for_) {
     samples.pop_front();
   }
 }

@@ -45,6 +45,8 @@ class RecordedRun {
                                const std::vector<std::string>& assignments,
                                std::vector<std::string>& notes) const;
 
+  /// A call of a component may take so long.
+  void keep_for_call(Duration longest);
   /// The samples of `topic` that an input may have been shown are at most so many behind the
   /// newest.
   void keep_at_least(const std::string& topic, std::size_t samples);
@@ -80,6 +82,7 @@ class RecordedRun {
   std::map<std::string, std::string> files_;  // where they were
   std::map<std::string, std::string> libraries_;
   std::map<std::string, RecordedPorts> components_;
+  Duration kept_for_ = seconds(5);               // samples, behind the newest message
   std::map<std::string, std::size_t> min_kept_;  // by topic
   std::uint32_t last_activation_ = 0;
   std::vector<std::string> problems_;

@@ -7,6 +7,7 @@
 
 #include "armature/runtime/deployment/description.hpp"
 #include "armature/runtime/deployment/tried_together.hpp"
+#include "armature/runtime/execution/watchdog.hpp"
 #include "armature/runtime/plugins/processor_level.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
@@ -39,6 +40,9 @@ ReplayedProcess::ReplayedProcess(RecordedRun& run, PluginRegistry& plugins,
     : run_{&run}, config_{run.read_config(plugins, assignments, notes_)} {
   note_other_libraries(run);
   for (const ComponentConfig& component : config_.components) {
+    if (!config_.simulated) {  // whose time stands still in a call
+      run.keep_for_call(declared_max_step(component, config_).value_or(Duration{0}));
+    }
     for (const PortBinding& input : component.inputs) {
       run.keep_at_least(input.topic, static_cast<std::size_t>(input.spec.queue.value_or(1)));
     }

@@ -4,26 +4,17 @@
 #include <algorithm>
 #include <utility>
 
-#include "armature/motion/tip_bound.hpp"
-
 namespace armature {
 namespace {
 
 using State = GoalStatus::State;
 
 constexpr int kMaxAttempts = 3;                    // to plan while the arm moves
-constexpr double kStill = 1e-3;                    // [rad/s] or [m/s] that an arm tells of itself
 constexpr double kSamePlace = 1e-6;                // [rad] or [m]
 constexpr Duration kPausePatience = seconds(0.1);  // behind the start that its plan should have
 
 constexpr std::string_view kFollowsNothing =
     "the arm says that it follows nothing (operating_state): enable it";
-constexpr std::string_view kFollows =
-    "the arm says that it follows, so the reference stays: look at its encoders, its load and what "
-    "holds it";
-constexpr std::string_view kGoesAlong =
-    "the arm goes along when the reference comes to it, so the reference stays: look at the arm's "
-    "encoders and load";
 
 /// Of which a plan is made.
 bool is_planned(MotionMode mode) {
@@ -39,10 +30,6 @@ bool is_planned(MotionMode mode) {
   return false;
 }
 
-bool tells_rest(const MeasuredJoints& measured) {
-  return measured.v.size() > 0 && measured.v.isZero(kStill);
-}
-
 }  // namespace
 
 GoalExecution::GoalExecution(const RobotModel& model, const MotionLimits& limits,
@@ -53,8 +40,7 @@ GoalExecution::GoalExecution(const RobotModel& model, const MotionLimits& limits
       options_{options},
       tracker_{tracker},
       no_tracker_{no_tracker},
-      rest_{each(options.rest_tolerance, model)},
-      return_{model, limits, each(options.rest_tolerance, model)} {}
+      arm_{model, limits, options.following, reference_} {}
 
 GoalStatus& GoalExecution::report(std::uint64_t goal_id, State state, std::string_view stage,
                                   const ReasonText& reason) {
@@ -95,37 +81,14 @@ void GoalExecution::begin_late(Time now) {
 void GoalExecution::arrive(Time now, const JointVector& q) {
   const Time end = reference_.end();
   const JointVector goal = reference_.at(end).q;
-  const ReasonText stray =
-      tolerance_violation(model_, q, {goal, "the goal", "goal_tolerance"}, options_.goal_tolerance);
+  const ReasonText stray = tolerance_violation(model_, q, {goal, "the goal", "goal_tolerance"},
+                                               options_.following.goal_tolerance);
   if (stray.empty()) return finish_active(State::done);
   if (now - end < options_.goal_time) return;
   report(*active_, State::failed, "execution",
          ReasonText::format("{}, {:g} s after it should be there (goal_time_s)", stray.view(),
                             to_seconds(options_.goal_time)));
   active_.reset();
-}
-
-ReasonText GoalExecution::silence(Time now, const std::optional<MeasuredJoints>& measured) const {
-  if (!measured) return "no joint state of the arm";
-  const Duration age = now - measured->stamp;
-  if (age > options_.measured_max_age) {
-    return ReasonText::format("no joint state of the arm for {:.2f} s", to_seconds(age));
-  }
-  return {};
-}
-
-bool GoalExecution::silent(Time now, const std::optional<MeasuredJoints>& measured) {
-  const ReasonText wrong = silence(now, measured);
-  if (wrong.empty()) {
-    measured_ = measured;
-    rest_.see(measured->q, measured->stamp);
-    return false;
-  }
-  if (!std::exchange(measured_, std::nullopt) && !trouble_.empty()) return true;
-  trouble_ = wrong;
-  fail_all("execution", trouble_);
-  stop(now);
-  return true;
 }
 
 void GoalExecution::stop(Time now) {
@@ -135,129 +98,47 @@ void GoalExecution::stop(Time now) {
                                     limits_.max_acceleration, now, last_goal_id_));
 }
 
-void GoalExecution::return_to(const JointVector& q, Time now) {
-  if (follows_ == true || !rest_.rests() || now < reference_.end()) return;
-  const auto part = return_.next_part(reference_.at(now).q, q, now, last_goal_id_);
-  if (part) reference_.splice(*part);
-}
-
-void GoalExecution::watch(Time now, const MeasuredJoints& measured) {
-  const JointVector wanted = reference_.at(measured.stamp).q;
-  ReasonText stray = tolerance_violation(
-      model_, measured.q, {wanted, "the reference", "max_deviation"}, options_.max_deviation);
-  const bool joints_are_near = stray.empty();
-  if (joints_are_near) {
-    stray = tip_violation(model_, measured.q, wanted, options_.max_tip_deviation);
-  }
-  const bool was_astray = std::exchange(astray_, !stray.empty());
-  if (stray.empty()) {
-    if (!halted() && rest_.rests()) return_.allow_again();
-    return trouble_.clear();
-  }
-  if (!was_astray) {
-    trouble_ = stray;
-    fail_all("execution", stray);
-    return stop(now);
-  }
-  if (halted() || return_.arm_goes_along() || joints_are_near) return;
-  return_to(measured.q, now);
-  const bool stays = follows_ == true && rest_.rests() && now >= reference_.end();
-  if (stays || return_.arm_goes_along()) {
-    trouble_ = ReasonText::format("{}; {}", stray.view(), stays ? kFollows : kGoesAlong);
-  }
-}
-
 bool GoalExecution::guided(Time now) const {
   const bool given = active_ && active_mode_ == MotionMode::guided;
   return given && !(pending_ && pending_->standing) && now >= reference_.end();
 }
 
-void GoalExecution::forget_if_late(Time now) {
-  const Duration late = updated_at_ ? now - *updated_at_ - options_.period : Duration{0};
-  updated_at_ = now;
-  if (late <= options_.max_lateness || !reference_.started()) return;
-  trouble_ = ReasonText::format("motion itself came {:.2f} s late (max_lateness_s is {:g})",
-                                to_seconds(late), to_seconds(options_.max_lateness));
-  fail_all("execution", trouble_);
-  reference_.forget();
-  measured_.reset();  // nor may a rearm begin from where the arm was
-  rest_.forget();
-  begin_after_ = now;
-  spliced_ = astray_ = in_hand_ = false;
-  return_.forget();
-}
-
-void GoalExecution::begin(Time now, const std::optional<MeasuredJoints>& measured) {
-  if (!silence(now, measured).empty() || measured->stamp < begin_after_) return;
-  measured_ = measured;
-  rest_.see(measured->q, measured->stamp);
-  const bool is_first = begin_after_ == Time{};
-  if (!rest_.rests() && !(is_first && tells_rest(*measured))) {
-    if (is_first) trouble_ = "the arm moves already; motion begins where it rests";
-    return;
-  }
-  reference_.start(measured->q, now);
-  trouble_.clear();
-}
-
-void GoalExecution::stay_with(const MeasuredJoints& measured, Time now) {
-  if (now < reference_.end()) return;
-  const JointVector stands = reference_.at(now).q;
-  const auto is_within = [&](const JointBound& bound) {
-    return is_near(model_, measured.q, stands, bound);
-  };
-  if (follows_ == false) {
-    if (rest_.rests() || !is_within(options_.max_deviation)) reference_.start(measured.q, now);
-    return;
-  }
-  // An arm that follows, and sags a little, would sink if the reference came to it.
-  // One that moves while the reference stands is moved by somebody.
-  if (is_within(options_.goal_tolerance) || !rest_.rests()) {
-    return_.allow_again();
-  } else if (follows_ == true) {
-    tell_beside(kFollows);
-  } else if (!return_.arm_goes_along()) {
-    return_to(measured.q, now);
-    if (return_.arm_goes_along()) tell_beside(kGoesAlong);
-  }
+void GoalExecution::fail_execution(const ReasonText& reason, Time now) {
+  fail_all("execution", reason);
+  stop(now);
 }
 
 void GoalExecution::tell_beside(std::string_view why) {
-  if (halted_.view().find(why) != std::string_view::npos) return;
+  if (why.empty() || halted_.view().find(why) != std::string_view::npos) return;
   halted_ = ReasonText::format("{}; {}", halted_.view(), why);
 }
 
 void GoalExecution::update(Time now, const std::optional<MeasuredJoints>& measured) {
-  forget_if_late(now);
-  if (!reference_.started()) return begin(now, measured);
+  if (arm_.comes_late(now)) {
+    fail_all("execution", arm_.trouble());
+    spliced_ = in_hand_ = false;
+  }
+  if (!reference_.started()) return arm_.begin(now, measured);
   if (std::exchange(spliced_, false)) begin_late(now);
-  if (silent(now, measured)) {
-    reference_.advance(now);
-    return;
-  }
-  in_hand_ = in_hand_ && !rest_.rests();
-  if (guided(now) || in_hand_) {
-    trouble_.clear();
-    reference_.start(measured->q, now);
-    return;
-  }
-  if (follows_ == false && !halted() && (active_ || pending_)) {
-    fail_all("execution", kFollowsNothing);
-    stop(now);
-  }
-  if (halted() || follows_ == false) stay_with(*measured, now);
+  if (arm_.falls_silent(now, measured)) fail_execution(arm_.trouble(), now);
+  if (!arm_.measured()) return reference_.advance(now);
+  in_hand_ = in_hand_ && !arm_.rests();
+  if (guided(now) || in_hand_) return arm_.go_along(now);
+  const bool follows_nothing = arm_.follows() == false;
+  if (follows_nothing && !halted() && (active_ || pending_)) fail_execution(kFollowsNothing, now);
+  if (halted() || follows_nothing) tell_beside(arm_.stay_with(now));
   if (pending_ && pending_->mode == MotionMode::pause && now > pending_->start + kPausePatience) {
     hold_instead(now);
   }
-  watch(now, *measured);
+  if (arm_.strays(now, halted())) fail_execution(arm_.trouble(), now);
   reference_.advance(now);
-  if (active_ && now >= reference_.end()) arrive(now, measured->q);
+  if (active_ && now >= reference_.end()) arrive(now, arm_.measured()->q);
 }
 
 ReasonText GoalExecution::refusal(const MotionGoal& goal, const ReasonText& wrong) const {
   if (!wrong.empty()) return wrong;
   if (!trouble().empty()) return trouble();
-  if (follows_ == false) return kFollowsNothing;
+  if (arm_.follows() == false) return kFollowsNothing;
   if (!is_newer(goal.id, last_goal_id_)) {
     return ReasonText::format("goal {} is not newer than goal {}", goal.id, last_goal_id_);
   }
@@ -384,7 +265,7 @@ bool GoalExecution::take(const PlanAnswer& answer, Time now) {
 }
 
 void GoalExecution::track(const MotionGoal& goal, Time now) {
-  const Time start = now + options_.period;
+  const Time start = now + options_.following.period;
   const JointState from = reference_.at(start);
   const bool tracked = active_ && active_mode_ == MotionMode::tracking;
   const bool under_way = tracked && !armature::at_rest(from);
@@ -426,24 +307,11 @@ void GoalExecution::begin_halt(const ReasonText& why, Time now) {
 
 bool GoalExecution::rearm(Time now) {
   if (!halted()) return true;
-  if (!measured_ || !at_rest(now)) return false;
+  if (!arm_.measured() || !at_rest(now)) return false;
   halted_.clear();
   was_stopped_ = in_hand_ = false;
-  trouble_.clear();
-  astray_ = false;
-  const bool stays = return_.arm_goes_along() || follows_ == true;
-  return_.forget();
-  if (!stays) reference_.start(measured_->q, now);
+  arm_.begin_again(now);
   return true;
-}
-
-bool GoalExecution::at_rest(Time now) const {
-  if (!reference_.started()) {
-    const bool silent = !measured_ && now - begin_after_ > options_.measured_max_age;
-    return silent || rest_.rests();
-  }
-  return armature::at_rest(reference_.at(now)) && now >= reference_.end() &&
-         (!measured_ || rest_.rests());
 }
 
 std::optional<GoalStatus> GoalExecution::current(Time now) const {

@@ -6,11 +6,9 @@
 #include <span>
 #include <string_view>
 
-#include "armature/motion/joint_bound.hpp"
+#include "armature/motion/arm_following.hpp"
 #include "armature/motion/plan_exchange.hpp"
 #include "armature/motion/reference.hpp"
-#include "armature/motion/rest_watch.hpp"
-#include "armature/motion/return_to_arm.hpp"
 #include "armature/motion/tracking.hpp"
 
 namespace armature ARMATURE_EXPORT {
@@ -27,25 +25,12 @@ struct GoalStatus {
   int stops_ahead = 0;     // of its way, behind where the goal ends
 };
 
-/// The joint positions that the arm reports.
-struct MeasuredJoints {
-  Time stamp;
-  JointVector q;       // independent joints
-  JointVector v = {};  // as the arm tells it; empty where it does not
-};
-
 struct ExecutionOptions {
-  Duration period;           // of `update`: when a tracked target takes over
-  Duration plan_budget;      // from the decision to the splice
-  JointBound max_deviation;  // of the arm from the reference
-  double max_tip_deviation;  // [m] of its tip, or its shaft's end, from where that has it
-  /// A goal is done when the reference has come to its end and the arm is so near; an arm that is
-  /// not within `goal_time` fails it.
-  JointBound goal_tolerance;
-  JointBound rest_tolerance;  // of an arm that rests, around one place
+  FollowingOptions following;
+  Duration plan_budget;  // from the decision to the splice
+  /// A goal is done when the reference has come to its end and the arm is near by
+  /// `following.goal_tolerance`; an arm that is not within this time fails it.
   Duration goal_time;
-  Duration measured_max_age;
-  Duration max_lateness;  // of `update`; later the driver has stopped the arm
 };
 
 /// Goals in, one commanded reference out. A planned goal is a request for a plan, which somebody
@@ -93,17 +78,14 @@ class GoalExecution {
   /// stopped by that: goals are refused in stage `accept`, and may be given again.
   void halt_before_operator(const ReasonText& why, Time now);
   bool halted() const { return !halted_.empty(); }
-  /// Whether the arm follows, by its own word; nothing: it does not say. To an arm that is halted
-  /// and does not follow the reference comes however near it is. To one that follows the reference
-  /// never comes: it goes where it is told to, so that what it measures elsewhere is its encoders'
-  /// word, or a push that ends.
-  void set_follows(std::optional<bool> follows) { follows_ = follows; }
+  /// As ArmFollowing has it.
+  void set_follows(std::optional<bool> follows) { arm_.set_follows(follows); }
   /// Begins again from where the arm measures itself, once arm and reference rest; false before.
   bool rearm(Time now);
   /// Whether the reference stands, and the arm by its own samples as well. An arm that is silent
   /// cannot say so, and one that was in a hand when it was halted is the hand's: both count as
   /// resting.
-  bool at_rest(Time now) const;
+  bool at_rest(Time now) const { return arm_.at_rest(now); }
 
   const Reference& reference() const { return reference_; }
   /// Statuses since the last call, in order; there until the next change.
@@ -111,7 +93,7 @@ class GoalExecution {
   /// The goal that is being executed, or was last; in stage `stop` as long as the arm is stopped.
   std::optional<GoalStatus> current(Time now) const;
   /// Why the arm is not driven, or empty.
-  const ReasonText& trouble() const { return halted() ? halted_ : trouble_; }
+  const ReasonText& trouble() const { return halted() ? halted_ : arm_.trouble(); }
 
  private:
   /// A goal that waits for its plan.
@@ -151,24 +133,12 @@ class GoalExecution {
   void begin_late(Time now);
   /// The reference has come to the goal's end: the arm as well?
   void arrive(Time now, const JointVector& q);
-  /// Why the arm is not heard, or empty.
-  ReasonText silence(Time now, const std::optional<MeasuredJoints>& measured) const;
-  bool silent(Time now, const std::optional<MeasuredJoints>& measured);
   /// On the way that the reference is on; beside it only where that takes too long.
   void stop(Time now);
-  /// At rest where the arm is, and not where it is just passing.
-  void begin(Time now, const std::optional<MeasuredJoints>& measured);
-  /// Once the reference of an arm that is halted rests.
-  void stay_with(const MeasuredJoints& measured, Time now);
+  /// Of the arm, which is stopped.
+  void fail_execution(const ReasonText& reason, Time now);
   /// Says once, behind why the arm is halted, why the reference stays beside it.
   void tell_beside(std::string_view why);
-  /// After a standstill of this unit or of the whole machine the reference must not be where it
-  /// would have come to meanwhile: the arm has not gone there.
-  void forget_if_late(Time now);
-  /// To an arm that rests at `q`, and does not say that it follows.
-  void return_to(const JointVector& q, Time now);
-  /// Whether the arm follows the reference, and what to do when it does not.
-  void watch(Time now, const MeasuredJoints& measured);
   /// True while a hand moves the arm; it does not before the arm has stopped.
   bool guided(Time now) const;
 
@@ -178,10 +148,7 @@ class GoalExecution {
   Tracker* tracker_;
   std::string_view no_tracker_;
   Reference reference_;
-  RestWatch rest_;
-  std::optional<MeasuredJoints> measured_;  // the last one, while the arm is heard
-  std::optional<Time> updated_at_;
-  Time begin_after_;  // a reference begins from a sample of the arm that is not older
+  ArmFollowing arm_;
   std::uint64_t last_goal_id_ = 0;
   bool took_any_ = false;     // goals
   bool was_stopped_ = false;  // since the last rearm, and not for want of an operator
@@ -197,11 +164,7 @@ class GoalExecution {
   ShortTrajectory way_;   // of a target that is tracked
   ReasonText behind_;     // why the tool is not on it
   bool spliced_ = false;  // since the last update
-  bool astray_ = false;   // the arm is not where the reference is
-  std::optional<bool> follows_;
-  ReturnToArm return_;
   bool in_hand_ = false;  // it was halted while a hand moved it, which still does
-  ReasonText trouble_ = "no joint state of the arm yet";
   ReasonText halted_;
 };
 

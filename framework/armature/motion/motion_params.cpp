@@ -129,15 +129,16 @@ TrackingOptions tracking_of(const Params& params, const RobotModel& model) {
 }
 
 ExecutionOptions execution_of(const Parameters& parameters) {
-  return {.period = seconds(1 / parameters.rate),
-          .plan_budget = seconds(parameters.plan_budget),
-          .max_deviation = {parameters.max_deviation_rad, parameters.max_deviation_m},
-          .max_tip_deviation = parameters.max_tip_deviation,
-          .goal_tolerance = {parameters.goal_tolerance_rad, parameters.goal_tolerance_m},
-          .rest_tolerance = {parameters.rest_tolerance_rad, parameters.rest_tolerance_m},
-          .goal_time = seconds(parameters.goal_time),
-          .measured_max_age = seconds(parameters.measured_max_age),
-          .max_lateness = seconds(parameters.max_lateness)};
+  return {
+      .following = {.period = seconds(1 / parameters.rate),
+                    .max_deviation = {parameters.max_deviation_rad, parameters.max_deviation_m},
+                    .max_tip_deviation = parameters.max_tip_deviation,
+                    .goal_tolerance = {parameters.goal_tolerance_rad, parameters.goal_tolerance_m},
+                    .rest_tolerance = {parameters.rest_tolerance_rad, parameters.rest_tolerance_m},
+                    .measured_max_age = seconds(parameters.measured_max_age),
+                    .max_lateness = seconds(parameters.max_lateness)},
+      .plan_budget = seconds(parameters.plan_budget),
+      .goal_time = seconds(parameters.goal_time)};
 }
 
 }  // namespace armature

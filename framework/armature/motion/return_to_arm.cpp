@@ -20,7 +20,7 @@ ReturnToArm::ReturnToArm(const RobotModel& model, const MotionLimits& limits,
     : model_{model}, limits_{limits}, first_part_{kFirstPart * rest_tolerance} {}
 
 std::optional<ShortTrajectory> ReturnToArm::next_part(const JointVector& from, const JointVector& q,
-                                                      Time now, std::uint64_t goal_id) {
+                                                      Time now) {
   arm_goes_along_ = arm_goes_along_ || went_along(q, now);
   if (arm_goes_along_ || (last_ && now - last_->end <= kListens)) return std::nullopt;
   const JointVector way = q.cwiseMax(model_.lower()).cwiseMin(model_.upper()) - from;
@@ -28,8 +28,7 @@ std::optional<ShortTrajectory> ReturnToArm::next_part(const JointVector& from, c
   const double share = share_to_go(way, now);
   const JointVector to = from + share * way;
   const JointVector max_acceleration = (share < 1 ? kGently : 1) * limits_.max_acceleration;
-  const ShortTrajectory part =
-      short_move(from, to, limits_.max_velocity, max_acceleration, now, goal_id);
+  const ShortTrajectory part = short_move(from, to, limits_.max_velocity, max_acceleration, now, 0);
   last_ = {.from = from, .to = to, .rested = q, .end = part.view().end()};
   return part;
 }

@@ -24,8 +24,7 @@ class ReturnToArm {
 
   /// The next part of the way to an arm that rests at `q`, from where the reference rests; nothing
   /// while it waits for the arm's answer, is there, or `arm_goes_along`.
-  std::optional<ShortTrajectory> next_part(const JointVector& from, const JointVector& q, Time now,
-                                           std::uint64_t goal_id);
+  std::optional<ShortTrajectory> next_part(const JointVector& from, const JointVector& q, Time now);
   /// Whether the arm went along with the last part: the reference stays where it is.
   bool arm_goes_along() const { return arm_goes_along_; }
   /// The arm is where the reference is, or somebody moves it: it may be returned to again.

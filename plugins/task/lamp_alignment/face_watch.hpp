@@ -42,6 +42,8 @@ class FaceWatch {
   /// The newest one that is believed, with rates that faces have.
   const std::optional<FaceEstimate>& latest() const { return latest_; }
   bool seen_since(Time time) const { return latest_ && latest_->stamp >= time; }
+  /// It is no older than `lost_s`.
+  bool is_fresh(Time now) const { return latest_ && !is_longer_than_lost(latest_->stamp, now); }
   /// Two estimates in a row say so.
   bool begins_to_move() const;
   /// The newest estimate says so; all of the newest `settle_frames` do.

@@ -85,7 +85,12 @@ void LampAlignment::see(const Picture& picture, Time now) {
 }
 
 void LampAlignment::see(const FaceEstimate& estimate) {
+  const bool follows_others = face_.is_fresh(estimate.stamp);
   if (!face_.see(estimate)) return;
+  if (!follows_others) {
+    recent_.clear();
+    at_rest_.clear();
+  }
   recent_.add(estimate);
   if (goals_.state() == GoalState::done && estimate.stamp >= goals_.done_at()) {
     at_rest_.add(estimate);
@@ -103,14 +108,12 @@ void LampAlignment::step(Time now) {
   blindness_ = captures_since_ ? face_.blindness(*captures_since_, now) : "";
   if (procedure_.paused()) return;
   switch (phase_) {
-    case Phase::checking_light:
-      if (face_.latest() && may_align()) align_with(latest(), Phase::aligning, now);
-      break;
+    case Phase::checking_light: aligns_with_seen_face(Step::light, now); break;
     case Phase::searching: search(now); break;
     case Phase::no_view: wait_for_a_view(now); break;
     case Phase::aligning:
     case Phase::following:
-      if (goes_along_) {
+      if (goes_along_ && face_.is_fresh(now)) {
         go_along(now);
       } else {
         come_to_rest(now);
@@ -126,6 +129,21 @@ void LampAlignment::step(Time now) {
 bool LampAlignment::may_align() {
   if (step() != Step::alignment) procedure_.enter(static_cast<std::size_t>(Step::alignment));
   return procedure_.may_act();
+}
+
+bool LampAlignment::aligns_with_seen_face(Step before, Time now) {
+  if (!face_.seen_since(looking_since_)) return false;
+  if (is_fresh(now)) {
+    if (may_align()) align_with(latest(), Phase::aligning, now);
+    return true;
+  }
+  if (step() == Step::alignment) {
+    procedure_.enter(static_cast<std::size_t>(before));
+    sets_out_ = phase_ == Phase::no_view;
+  }
+  looking_since_ = now;
+  pictures_ = 0;
+  return false;
 }
 
 void LampAlignment::align_with(const FaceEstimate& estimate, Phase phase, Time now) {
@@ -184,6 +202,7 @@ void LampAlignment::come_to_rest(Time now) {
     return;
   }
   if (goals_.state() != GoalState::done) {
+    if (!is_fresh(now)) return;
     // After the first approach the arm is near, and goals for where he was would trail him.
     if (phase_ == Phase::following && may_go_along()) return go_along(now);
     follow_if_moved(now);
@@ -194,6 +213,7 @@ void LampAlignment::come_to_rest(Time now) {
     return;
   }
   trouble_ = face_.disbelief(goals_.done_at());
+  if (!is_fresh(now)) return;
   if (may_go_along()) return go_along(now);
   const auto frames = static_cast<std::size_t>(parameters_.settle_frames);
   if (at_rest_.count() >= few_ && has_moved()) {
@@ -215,6 +235,7 @@ void LampAlignment::hold(Time now) {
     return;
   }
   trouble_ = face_.disbelief(goals_.done_at());
+  if (!is_fresh(now)) return;
   if (may_go_along()) return go_along(now);
   if (has_moved()) {
     align_with(recent(), Phase::following, now);
@@ -243,7 +264,7 @@ void LampAlignment::wait_for_another_face_position(Time now) {
   const double wait_s = std::min(std::ldexp(parameters_.replan_interval, refused_ - 1),
                                  parameters_.max_retry_interval);
   if (to_seconds(now - goal_set_at_) < wait_s) return;
-  if (recent_.count() < few_) return;
+  if (!is_fresh(now) || recent_.count() < few_) return;
   if (goals_.stopped() ? has_moved() : settled_.left_by(latest(), *goal_estimate_)) {
     const std::string why = trouble_;
     align_with(recent(), Phase::unreachable, now);

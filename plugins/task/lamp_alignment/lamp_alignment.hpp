@@ -61,8 +61,14 @@ class LampAlignment {
   enum class Step : std::size_t { light, search, alignment };
 
   Step step() const { return static_cast<Step>(procedure_.step()); }
+  /// The newest estimate may be set out for: it is no older than `lost_s`, and the lamp not blind.
+  bool is_fresh(Time now) const { return blindness_.empty() && face_.is_fresh(now); }
   /// Whether the arm may set out to align with a face that is seen; asks the operator if need be.
   bool may_align();
+  /// A face has been seen since it looks, and is not lost again: it aligns with that one, or asks.
+  /// Of one that is lost it asks no more, and is back in `before`.
+  bool aligns_with_seen_face(Step before, Time now);
+  Expected<void> may_resume(Time now) const;
   Expected<void> go_back(Time now);
   Expected<void> abort();
   void end_abort();

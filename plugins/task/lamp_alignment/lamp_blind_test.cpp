@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lamp that is blind stays where it is and says why: 1. no pictures come, 2. those that come
-// cannot be used.
+// cannot be used, 3. what it has seen is old.
 #include "lamp_room_test.hpp"
 
 namespace armature::task::lamp_alignment {
@@ -61,6 +61,109 @@ TEST_F(LampAlignmentTest, InASearchItStaysInItsViewWhileNoPictureCanBeUsed) {
   unusable_.clear();
   EXPECT_TRUE(run_until(Phase::holding, 15));
   EXPECT_EQ(task_.trouble(), "");
+}
+
+class LampThatWasPausedTest : public LampAlignmentTest {
+ protected:
+  std::string say(const std::string& word) {
+    const auto obeyed = task_.hear({.id = ++said_, .word = word, .step = ""}, now_);
+    return obeyed ? "" : obeyed.error().text;
+  }
+  bool looks_ahead() const {
+    return task_.phase() == Phase::searching && task_.capture() &&
+           std::get<Direction>(lamp_.orientation).unit.x() > 0.8;
+  }
+  /// The cameras fail, and it goes on ten minutes later.
+  void resume_blind() {
+    has_cameras_ = false;
+    run(600);
+    ASSERT_EQ(task_.trouble(), "no picture has come for 2 s");
+    const std::size_t goals = goals_.size();
+    ASSERT_EQ(say("resume"), "");
+    run(10);
+    EXPECT_EQ(goals_.size(), goals) << "where the patient was ten minutes ago";
+  }
+
+  std::uint64_t said_ = 0;
+};
+
+TEST_F(LampThatWasPausedTest, InAViewItDoesNotSetOutForAFaceThatWasSeenInThePause) {
+  present_ = false;
+  while (!looks_ahead()) tick();
+  EXPECT_EQ(say("pause"), "");
+  present_ = true;
+  run(3);
+  present_ = false;
+  run(60);
+  resume_blind();
+  EXPECT_EQ(task_.phase(), Phase::searching);
+  present_ = has_cameras_ = true;
+  EXPECT_TRUE(run_until(Phase::holding, 15));
+}
+
+TEST_F(LampThatWasPausedTest, HoldingItDoesNotSetOutForAPatientWhoMovedInThePause) {
+  for (const double moved_m : {0.1, 0.005}) {
+    ASSERT_TRUE(run_until(Phase::holding, 15));
+    EXPECT_EQ(say("pause"), "");
+    mouth_.y() += moved_m;
+    run(4);
+    resume_blind();
+    has_cameras_ = true;
+    const std::size_t goals = goals_.size();
+    mouth_.y() -= moved_m;
+    run(10);
+    EXPECT_EQ(goals_.size(), goals) << "he is where he was before, and what is old counts no more";
+  }
+}
+
+TEST_F(LampThatWasPausedTest, AtRestBeforeAFaceItDoesNotSetOutForWhatItSawInThePause) {
+  ASSERT_TRUE(run_until(Phase::aligning, 10));
+  run(1.1);
+  ASSERT_EQ(task_.phase(), Phase::aligning);
+  ASSERT_FALSE(goal_) << "it is there";
+  EXPECT_EQ(say("pause"), "");
+  velocity_ = {0, 0.05, 0};
+  mouth_.y() += 0.05;
+  run(3);
+  resume_blind();
+}
+
+TEST_F(LampThatWasPausedTest, AWayToAFaceThatIsLostMeanwhileIsNotGoneToItsEnd) {
+  ASSERT_TRUE(run_until(Phase::aligning, 10));
+  tick();
+  EXPECT_EQ(say("pause"), "");
+  has_cameras_ = false;
+  run(600);
+  const std::size_t goals = goals_.size();
+  EXPECT_EQ(say("resume"),
+            "the face that it was on its way to has not been seen for 2 s: 'back' searches for it");
+  run(5);
+  EXPECT_EQ(goals_.size(), goals);
+  EXPECT_EQ(say("back"), "");
+  has_cameras_ = true;
+  EXPECT_TRUE(run_until(Phase::holding, 15));
+}
+
+TEST_F(LampAlignmentTest, OutOfReachOfAFaceItTriesNoOtherPositionThatIsOld) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  reach_m_ = 0.1;
+  mouth_.y() += 0.05;
+  ASSERT_TRUE(run_until(Phase::unreachable, 10));
+  for (int refused = 0; refused < 5; ++refused) {
+    mouth_.y() += 0.02;
+    run(4);
+  }
+  for (const std::size_t goals = goals_.size(); goals_.size() == goals; tick()) mouth_.y() += 2e-4;
+  mouth_.y() += 0.03;
+  run(0.5);
+  has_cameras_ = false;
+  reach_m_ = 10;
+  const std::size_t goals = goals_.size();
+  run(60);
+  EXPECT_EQ(goals_.size(), goals) << "it would be sent 4 s after the last one";
+  EXPECT_EQ(task_.trouble(), "no picture has come for 2 s");
+  has_cameras_ = true;
+  EXPECT_TRUE(run_until(Phase::holding, 15));
 }
 
 }  // namespace

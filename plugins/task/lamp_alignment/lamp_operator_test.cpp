@@ -52,6 +52,43 @@ TEST_F(OperatedLampTest, AFaceThatIsGoneBeforeItsConfirmationIsSearchedForOnceTh
   EXPECT_GT(goals_.size(), views);
 }
 
+TEST_F(OperatedLampTest, AfterAStopInTheSearchItAsksForNoFaceThatIsGone) {
+  present_ = false;
+  confirm("search");
+  run(0.5);
+  stop();
+  run(2);
+  ASSERT_EQ(task_.phase(), Phase::no_view);
+  rearm();
+  lamp_.orientation = Direction{Eigen::Vector3d::UnitX()};
+  present_ = true;
+  run(2);
+  ASSERT_EQ(asked(), "alignment");
+  present_ = false;
+  run(3);
+  EXPECT_EQ(asked(), "search");
+  has_cameras_ = false;
+  const std::size_t goals = goals_.size();
+  run(600);
+  EXPECT_EQ(goals_.size(), goals) << "nothing moves before that is confirmed";
+  confirm("search");
+  run(5);
+  EXPECT_EQ(task_.phase(), Phase::searching);
+  EXPECT_EQ(goals_.size(), goals + 1) << "a view, from which no picture comes";
+}
+
+TEST_F(OperatedLampTest, AQuestionThatIsConfirmedLateSetsOutForNoFaceThatIsOld) {
+  has_cameras_ = false;
+  for (int measured = 1; measured <= 3; ++measured) {
+    task_.see(FaceEstimate{.stamp = now_, .mouth = mouth_, .measurements = measured});
+  }
+  tick();
+  ASSERT_EQ(asked(), "alignment") << "while it checks the light";
+  run(600);
+  EXPECT_EQ(asked(), "");
+  EXPECT_TRUE(goals_.empty());
+}
+
 TEST_F(OperatedLampTest, PausedItStandsAndFollowsNobodyAndGoesOnAfterwards) {
   confirm("search");
   confirm("alignment");

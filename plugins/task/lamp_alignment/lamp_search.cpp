@@ -53,13 +53,7 @@ void LampAlignment::next_view() {
 }
 
 void LampAlignment::search(Time now) {
-  if (face_.seen_since(looking_since_) && looking_) {
-    if (may_align()) return align_with(latest(), Phase::aligning, now);
-    if (to_seconds(now - latest().stamp) <= parameters_.lost) return;
-    procedure_.enter(static_cast<std::size_t>(Step::search));  // it asks no more for what is lost
-    looking_since_ = now;
-    pictures_ = 0;
-  }
+  if (looking_ && aligns_with_seen_face(Step::search, now)) return;
   if (!procedure_.may_act()) return;
   set_out();
   if (!looking_) {
@@ -115,15 +109,17 @@ void LampAlignment::leave_failed_view(Time now) {
 }
 
 void LampAlignment::wait_for_a_view(Time now) {
-  if (face_.seen_since(looking_since_)) {
-    if (may_align()) align_with(latest(), Phase::aligning, now);
-  } else if (goals_.state() == GoalState::moving || goals_.state() == GoalState::done) {
+  if (aligns_with_seen_face(Step::search, now) || !procedure_.may_act()) return;
+  if (goals_.state() == GoalState::moving || goals_.state() == GoalState::done) {
     phase_ = Phase::searching;
     trouble_.clear();
     failed_views_ = 0;
     capture_ = false;
-  } else if (goals_.state() == GoalState::failed && !goals_.stopped() &&
-             to_seconds(now - goal_set_at_) >= kNextTry_s) {
+    return;
+  }
+  const bool may_try_next = goals_.state() == GoalState::failed && !goals_.stopped() &&
+                            to_seconds(now - goal_set_at_) >= kNextTry_s;
+  if (std::exchange(sets_out_, false) || may_try_next) {
     next_view();
     capture_ = true;
     goal_set_at_ = now;

@@ -1,13 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // What an operator's words mean: the ways back.
+#include <fmt/format.h>
+
 #include "armature/task/obey.hpp"
 #include "lamp_alignment.hpp"
 
 namespace armature::task::lamp_alignment {
 
 Expected<void> LampAlignment::hear(const OperatorCommand& command, Time now) {
+  if (const auto may = may_resume(now); command.word == "resume" && !may) return may;
   return obey(
       command, procedure_, goals_, [&] { return go_back(now); }, [&] { return abort(); });
+}
+
+/// A way to a face that was interrupted is not gone to its end once that face is lost.
+Expected<void> LampAlignment::may_resume(Time now) const {
+  const bool interrupted =
+      goals_.state() == GoalState::pausing || goals_.state() == GoalState::paused;
+  const bool to_a_face = step() == Step::alignment && phase_ != Phase::aborting;
+  if (!interrupted || !to_a_face || is_fresh(now)) return {};
+  return refuse(fmt::format(
+      "the face that it was on its way to has not been seen for {:g} s: 'back' searches for it",
+      parameters_.lost));
 }
 
 Expected<void> LampAlignment::go_back(Time now) {

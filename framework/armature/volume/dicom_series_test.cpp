@@ -232,6 +232,30 @@ TEST_F(DicomSeries, OfUnequalSpacingIsRefused) {
             "1.25 mm elsewhere");
 }
 
+TEST_F(DicomSeries, WithASliceThatIsPushedAsideIsRefused) {
+  write_series(5);
+  Slice aside = at(2, 2.5);
+  aside.position.x() += 30;
+  write(aside);
+  EXPECT_EQ(refusal(),
+            "': 'slice02.dcm' lies 30 mm beside its place in the row from 'slice00.dcm' to "
+            "'slice04.dcm'; up to 0.025 mm are taken");
+  aside.position.x() += 0.02 - 30;
+  write(aside);
+  EXPECT_EQ(refusal(), "read") << "as positions are rounded";
+}
+
+TEST_F(DicomSeries, WhoseStepsShrinkSlowlyIsRefused) {
+  double along_normal = 0;
+  for (int i = 0; i < 20; ++i) {
+    write(at(i, along_normal));
+    along_normal += i < 10 ? 1.26 : 1.24;  // each is within 2 % of 1.25
+  }
+  EXPECT_EQ(refusal(),
+            "': 'slice10.dcm' lies 0.0947 mm beside its place in the row from 'slice00.dcm' to "
+            "'slice19.dcm'; up to 0.025 mm are taken");
+}
+
 TEST_F(DicomSeries, WithTwoSlicesOfOnePlaceIsRefused) {
   write_series(4);
   write(at(4, 2.5));

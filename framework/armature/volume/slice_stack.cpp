@@ -49,6 +49,9 @@ std::optional<std::string> unlike_first(const std::vector<DicomSlice>& slices) {
   return std::nullopt;
 }
 
+/// What a slice may lie beside its place, in steps.
+constexpr double kEven = 0.02;
+
 /// Of slices in order; `place` tells where one is along the normal [mm].
 template <class Place>
 std::optional<std::string> uneven_steps(const std::vector<DicomSlice>& slices, const Place& place) {
@@ -59,7 +62,7 @@ std::optional<std::string> uneven_steps(const std::vector<DicomSlice>& slices, c
   std::vector<double> sorted = steps;
   std::ranges::sort(sorted);
   const double usual = sorted[sorted.size() / 2];
-  constexpr double kSamePlace = 1e-3, kEven = 0.02;  // [mm], in steps
+  constexpr double kSamePlace = 1e-3;  // [mm]
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const std::string names =
         fmt::format("'{}' and '{}'", name_of(slices[i]), name_of(slices[i + 1]));
@@ -74,6 +77,27 @@ std::optional<std::string> uneven_steps(const std::vector<DicomSlice>& slices, c
     }
   }
   return std::nullopt;
+}
+
+/// Of slices in order, in the plane and along the normal, with one step from each to the next.
+std::optional<std::string> pushed_aside(const std::vector<DicomSlice>& slices,
+                                        const Vector3d& step) {
+  const DicomSlice& first = slices.front();
+  const DicomSlice* farthest = &first;
+  double most = 0;  // [mm]
+  for (std::size_t i = 1; i < slices.size(); ++i) {
+    const Vector3d due = first.position + static_cast<double>(i) * step;
+    const double beside = (slices[i].position - due).norm();
+    if (beside <= most) continue;
+    most = beside;
+    farthest = &slices[i];
+  }
+  const double taken = kEven * step.norm();
+  if (most <= taken) return std::nullopt;
+  return fmt::format(
+      "'{}' lies {:.3g} mm beside its place in the row from '{}' to '{}'; up to "
+      "{:.3g} mm are taken",
+      name_of(*farthest), most, name_of(first), name_of(slices.back()), taken);
 }
 
 std::optional<std::string> not_whole(const std::vector<DicomSlice>& slices) {
@@ -97,6 +121,7 @@ Expected<Volume> stacked(std::vector<DicomSlice> slices) {
   const auto count = static_cast<int>(slices.size());
   Volume volume{.geometry = {.size = {first.columns, first.rows, count}}};
   const Vector3d step = (slices.back().position - first.position) / (count - 1);
+  if (auto aside = pushed_aside(slices, step)) return refuse(std::move(*aside));
   if (auto wrong = set_axes({1e-3 * first.column_step * first.along_row,
                              1e-3 * first.row_step * first.along_column, 1e-3 * step},
                             volume.geometry)) {

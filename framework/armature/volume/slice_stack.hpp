@@ -10,7 +10,7 @@
 namespace armature {
 
 /// Slices in any order as one volume, stacked along their normal. Refuses those of several series,
-/// and those that are not alike or not a whole stack at equal distances.
+/// and those that are not alike or not a whole, straight stack at equal distances.
 Expected<Volume> stacked(std::vector<DicomSlice> slices);
 
 }  // namespace armature

@@ -49,10 +49,8 @@ Expected<std::string> inflated(std::string_view gzip, std::size_t max_bytes,
                               stream.msg ? stream.msg : zError(status)));
   }
   if (is_stuck && written < max_bytes) {
-    return refuse(
-        fmt::format("its gzip data end within the stream, after {} of {} bytes: is it "
-                    "truncated?",
-                    written, max_bytes));
+    return refuse(fmt::format(
+        "its gzip data end within the stream, after {} bytes: is it truncated?", written));
   }
   bytes.resize(written);
   return bytes;

@@ -69,9 +69,9 @@ TEST(Inflated, ThatEndsTooEarlyOrIsDamagedIsRefused) {
   for (const std::size_t piece : {1u, 64u, 4096u}) {
     SCOPED_TRACE(piece);
     const std::string cut = refusal_of(gzip.substr(0, gzip.size() / 2), 1000, piece);
-    EXPECT_NE(cut.find(" of 1000 bytes: is it truncated?"), std::string::npos) << cut;
+    EXPECT_NE(cut.find(" bytes: is it truncated?"), std::string::npos) << cut;
     EXPECT_EQ(refusal_of("", 1000, piece),
-              "its gzip data end within the stream, after 0 of 1000 bytes: is it truncated?");
+              "its gzip data end within the stream, after 0 bytes: is it truncated?");
     EXPECT_EQ(refusal_of("no gzip at all", 1000, piece),
               "its gzip data are damaged after 0 bytes: incorrect header check");
     std::string other_sum = gzip;

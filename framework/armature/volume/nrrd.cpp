@@ -72,7 +72,7 @@ Expected<void> read_voxels(std::string_view bytes, const NrrdHeader& header, con
                            Volume& volume) {
   const auto& size = volume.geometry.size;
   for (std::size_t at = 0; at < volume.voxels.size(); ++at) {
-    const double value = type.read(bytes, at, header.big_endian);
+    const double value = type.read(bytes, at, header.big_endian.value_or(false));
     if (!(std::abs(value) <= 32767)) {
       const auto nx = static_cast<std::size_t>(size[0]), ny = static_cast<std::size_t>(size[1]);
       return refuse(fmt::format("voxel ({}, {}, {}) is {:g}, which is no Hounsfield unit", at % nx,
@@ -88,16 +88,23 @@ Expected<Volume> volume_from(std::istream& in) {
   if (!header) return tl::unexpected{header.error()};
   const NumberType* type = type_named(header->type);
   if (!type) return refuse(fmt::format("the type '{}' is not read", header->type));
+  if (type->bytes > 1 && !header->big_endian) {
+    return refuse(
+        fmt::format("its header has no 'endian', and numbers of type '{}' need it", header->type));
+  }
   std::string bytes{std::istreambuf_iterator<char>{in}, {}};
   const std::size_t needed = header->geometry.count() * type->bytes;
   if (header->is_compressed) {
-    auto all = inflated(bytes, needed);
+    auto all = inflated(bytes, needed + 1);
     if (!all) return tl::unexpected{all.error()};
     bytes = std::move(*all);
   }
   if (bytes.size() < needed) {
     return refuse(fmt::format("it ends after {} of {} bytes of voxels: is it truncated?",
                               bytes.size(), needed));
+  }
+  if (bytes.size() > needed) {
+    return refuse(fmt::format("more than {} bytes of voxels follow: are its sizes right?", needed));
   }
   Volume volume{header->geometry, std::vector<std::int16_t>(header->geometry.count())};
   if (auto read = read_voxels(bytes, *header, *type, volume); !read) {

@@ -50,8 +50,11 @@ Expected<Fields> fields_of(std::istream& in) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (line.empty()) break;
     const auto colon = line.find(':');
-    if (line[0] == '#' || colon == std::string::npos || !line.substr(colon).starts_with(": ")) {
-      continue;
+    const bool is_field = colon != std::string::npos && line.substr(colon).starts_with(": ");
+    if (line[0] == '#' || (!is_field && line.find(":=") != std::string::npos)) continue;
+    if (!is_field) {
+      return refuse(
+          fmt::format("line {}: '{}' is neither 'field: value' nor 'key:=value'", number, line));
     }
     Field field{line.substr(0, colon), line.substr(colon + 2), number};
     const auto [before, is_new] = fields.emplace(key_of(field.name), field);
@@ -197,7 +200,7 @@ Expected<NrrdHeader> read_nrrd_header(std::istream& in) {
   if (endian == fields->end()) return header;
   const std::string order = in_small_letters(endian->second.value);
   header.big_endian = order == "big";
-  if (!header.big_endian && order != "little") {
+  if (order != "big" && order != "little") {
     return refuse(place_of(endian->second) + ", not big or little");
   }
   return header;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <istream>
+#include <optional>
 #include <string>
 
 #include "armature/values/expected.hpp"
@@ -13,7 +14,8 @@ namespace armature {
 struct NrrdHeader {
   VolumeGeometry geometry;
   std::string type;  // "short", "float"
-  bool is_compressed = false, big_endian = false;
+  bool is_compressed = false;
+  std::optional<bool> big_endian;  // as it says
 };
 
 /// Reads up to the empty line before the voxels.

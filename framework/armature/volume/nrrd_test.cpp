@@ -36,6 +36,12 @@ class Nrrd : public testing::Test {
            "\nsizes: 2 2 2\nspace directions: " + directions +
            "\nspace origin: (10,20,30)\nkinds: domain domain domain\n" + more;
   }
+  /// Of 16-bit numbers in the file itself, as most files have them.
+  static std::string raw_header(const std::string& more = {},
+                                const std::string& directions = "(0.5,0,0) (0,0.5,0) (0,0,2)",
+                                const std::string& space = "LPS") {
+    return header("short", "endian: little\nencoding: raw\n" + more, directions, space);
+  }
   template <class Number>
   static std::string bytes(std::initializer_list<Number> numbers) {
     std::string data(numbers.size() * sizeof(Number), '\0');
@@ -95,35 +101,35 @@ TEST_F(Nrrd, IsReadRawAndCompressedBigAndLittleOfSeveralTypes) {
 }
 
 TEST_F(Nrrd, OfRightAnteriorSuperiorIsTurnedAndAMirroredOneStaysSo) {
-  write(header("short", "encoding: raw\n", "(-0.5,0,0) (0,-0.5,0) (0,0,2)",
-               "right-anterior-superior"),
-        eight_);
+  write(raw_header("", "(-0.5,0,0) (0,-0.5,0) (0,0,2)", "right-anterior-superior"), eight_);
   const auto ras = read_nrrd(file_);
   ASSERT_TRUE(ras) << ras.error().text;
   EXPECT_LT((ras->geometry.direction - Eigen::Matrix3d::Identity()).norm(), 1e-15);
   EXPECT_LT((ras->geometry.origin - Eigen::Vector3d{-0.01, -0.02, 0.03}).norm(), 1e-15);
-  write(header("short", "encoding: raw\n", "(-0.5,0,0) (0,0.5,0) (0,0,2)"), eight_);
+  write(raw_header("", "(-0.5,0,0) (0,0.5,0) (0,0,2)"), eight_);
   EXPECT_LT(read_nrrd(file_).value().geometry.direction.determinant(), 0);
 }
 
 TEST_F(Nrrd, ThatIsTruncatedOrHoldsNoNumbersIsRefusedByName) {
-  write(header("short", "encoding: raw\n"), eight_.substr(0, 13));
+  write(raw_header(), eight_.substr(0, 13));
   EXPECT_EQ(refusal(), "it ends after 13 of 16 bytes of voxels: is it truncated?");
   const std::string zip = gzipped(eight_);
-  write(header("short", "encoding: gzip\n"), zip.substr(0, zip.size() - 14));
-  EXPECT_NE(refusal().find(" of 16 bytes: is it truncated?"), std::string::npos) << refusal();
-  write(header("short", "encoding: gzip\n"), gzipped(eight_.substr(0, 14)));
+  write(header("short", "endian: little\nencoding: gzip\n"), zip.substr(0, zip.size() - 14));
+  EXPECT_NE(refusal().find(" bytes: is it truncated?"), std::string::npos) << refusal();
+  write(header("short", "endian: little\nencoding: gzip\n"), gzipped(eight_.substr(0, 14)));
   EXPECT_EQ(refusal(), "it ends after 14 of 16 bytes of voxels: is it truncated?");
-  write(header("float", "encoding: raw\n"), bytes<float>({1, 2, 3, 4, 5, NAN, 7, 8}));
+  write(header("float", "endian: little\nencoding: raw\n"),
+        bytes<float>({1, 2, 3, 4, 5, NAN, 7, 8}));
   EXPECT_EQ(refusal(), "voxel (1, 0, 1) is nan, which is no Hounsfield unit");
-  write(header("float", "encoding: raw\n"), bytes<float>({1, 2, 3, 1e9F, 5, 6, 7, 8}));
+  write(header("float", "endian: little\nencoding: raw\n"),
+        bytes<float>({1, 2, 3, 1e9F, 5, 6, 7, 8}));
   EXPECT_EQ(refusal(), "voxel (1, 1, 0) is 1e+09, which is no Hounsfield unit");
 }
 
 TEST_F(Nrrd, WhoseSlicesAreTiltedIsRefusedByName) {
-  write(header("short", "encoding: raw\n", "(0.5,0,0) (0,0.5,0) (0,0.5,2)"), eight_);
+  write(raw_header("", "(0.5,0,0) (0,0.5,0) (0,0.5,2)"), eight_);
   EXPECT_EQ(refusal(), "its slices are tilted by 14.04 degrees against their stack (gantry tilt)");
-  write(header("short", "encoding: raw\n", "(0.5,0,0) (0.1,0.5,0) (0,0,2)"), eight_);
+  write(raw_header("", "(0.5,0,0) (0.1,0.5,0) (0,0,2)"), eight_);
   EXPECT_EQ(refusal(), "its rows and columns are 11.31 degrees off the right angle");
 }
 
@@ -132,51 +138,76 @@ TEST_F(Nrrd, ThatIsAnotherThingIsRefusedByName) {
   EXPECT_EQ(refusal(), "it is no NRRD file");
   write(header("block", "encoding: raw\n"), eight_);
   EXPECT_EQ(refusal(), "the type 'block' is not read");
-  write(header("short", "encoding: bzip2\n"), eight_);
+  write(header("short", "endian: little\nencoding: bzip2\n"), eight_);
   EXPECT_EQ(refusal(), "its encoding is 'bzip2'; raw and gzip are read");
-  write(header("short", "encoding: raw\n", "(0.5,0,0) (0,x,0) (0,0,2)"), eight_);
+  write(raw_header("", "(0.5,0,0) (0,x,0) (0,0,2)"), eight_);
   EXPECT_EQ(refusal(), "it has no three 'space directions'");
-  write(header("short", "encoding: raw\n", "(0.5,0,0) (0,0.5,0) (0,0,2)", "scanner-xyz"), eight_);
+  write(raw_header("", "(0.5,0,0) (0,0.5,0) (0,0,2)", "scanner-xyz"), eight_);
   EXPECT_EQ(refusal().substr(0, 29), "its space is 'scanner-xyz', n");
-  write(header("short", "encoding: raw\ndata file: voxels.raw\n"), eight_);
-  EXPECT_EQ(refusal(), "line 10: its voxels are in another file, which is not read");
+  write(raw_header("data file: voxels.raw\n"), eight_);
+  EXPECT_EQ(refusal(), "line 11: its voxels are in another file, which is not read");
   EXPECT_EQ(read_nrrd("/gone.nrrd").error().text, "'/gone.nrrd' cannot be read");
 }
 
 /// Of a sound file with one line more.
 TEST_F(Nrrd, WithAFieldThatWouldMoveOrScaleItsVoxelsIsRefusedWithTheLine) {
   const auto with = [&](const std::string& line) {
-    write(header("short", "encoding: raw\n" + line + "\n"), "12345678" + eight_);
+    const bool says_order = line.find("ndian") != std::string::npos;
+    write(header("short", line + (says_order ? "" : "\nendian: little") + "\nencoding: raw\n"),
+          eight_);
     return refusal();
   };
   EXPECT_EQ(with("byte skip: 8"),
-            "line 10: its 'byte skip' is '8'; only voxels that begin right behind the header are "
+            "line 9: its 'byte skip' is '8'; only voxels that begin right behind the header are "
             "read");
   EXPECT_EQ(with("byteskip: -1"),
-            "line 10: its 'byteskip' is '-1'; only voxels that begin right behind the header are "
+            "line 9: its 'byteskip' is '-1'; only voxels that begin right behind the header are "
             "read");
   EXPECT_EQ(with("line skip: 1"),
-            "line 10: its 'line skip' is '1'; only voxels that begin right behind the header are "
+            "line 9: its 'line skip' is '1'; only voxels that begin right behind the header are "
             "read");
   EXPECT_EQ(with("old max: 3000"),
-            "line 10: its 'old max' is '3000'; only voxels that are Hounsfield units themselves "
+            "line 9: its 'old max' is '3000'; only voxels that are Hounsfield units themselves "
             "are read");
   EXPECT_EQ(with("space units: \"m\" \"m\" \"m\""),
-            "line 10: its 'space units' is '\"m\" \"m\" \"m\"'; three times \"mm\" is read");
+            "line 9: its 'space units' is '\"m\" \"m\" \"m\"'; three times \"mm\" is read");
   EXPECT_EQ(with("space units: \"mm\" \"mm\""),
-            "line 10: its 'space units' is '\"mm\" \"mm\"'; three times \"mm\" is read");
-  EXPECT_EQ(with("endian: middle"), "line 10: its 'endian' is 'middle', not big or little");
+            "line 9: its 'space units' is '\"mm\" \"mm\"'; three times \"mm\" is read");
+  EXPECT_EQ(with("endian: middle"), "line 9: its 'endian' is 'middle', not big or little");
   for (const char* harmless : {"byte skip: 0", "line skip: 0", "space units: \"mm\" \"mm\" \"mm\"",
                                "Endian: Little", "type:=byte skip: 8", "# byte skip: 8"}) {
     EXPECT_EQ(with(harmless), "read") << harmless;
   }
 }
 
+TEST_F(Nrrd, WithALineThatIsNoFieldIsRefusedWithTheLine) {
+  for (const std::string line : {"byte skip:100", "byte skip 100", "old min:\t3"}) {
+    write(raw_header(line + "\n"), eight_);
+    EXPECT_EQ(refusal(), "line 11: '" + line + "' is neither 'field: value' nor 'key:=value'");
+  }
+}
+
+TEST_F(Nrrd, OfNumbersOfSeveralBytesWhoseOrderItDoesNotSayIsRefused) {
+  write(header("short", "encoding: raw\n"), eight_);
+  EXPECT_EQ(refusal(), "its header has no 'endian', and numbers of type 'short' need it");
+  write(header("int8", "encoding: raw\n"), "12345678");
+  EXPECT_EQ(refusal(), "read");
+}
+
+TEST_F(Nrrd, WithMoreVoxelsThanItsSizesSayIsRefused) {
+  for (const std::string& more : {std::string(1, '\0'), eight_ + eight_}) {
+    write(raw_header(), eight_ + more);
+    EXPECT_EQ(refusal(), "more than 16 bytes of voxels follow: are its sizes right?");
+    write(header("short", "endian: little\nencoding: gzip\n"), gzipped(eight_ + more));
+    EXPECT_EQ(refusal(), "more than 16 bytes of voxels follow: are its sizes right?");
+  }
+}
+
 TEST_F(Nrrd, WithAFieldTwiceOrAnOriginThatIsNoPlaceIsRefusedWithTheLine) {
-  write(header("short", "encoding: raw\nSpace Origin: (0,0,0)\n"), eight_);
+  write(raw_header("Space Origin: (0,0,0)\n"), eight_);
   EXPECT_EQ(refusal(),
-            "line 10: 'Space Origin' is there twice, in line 7 as well: which one counts?");
-  std::string wrong = header("short", "encoding: raw\n");
+            "line 11: 'Space Origin' is there twice, in line 7 as well: which one counts?");
+  std::string wrong = raw_header();
   wrong.replace(wrong.find("(10,20,30)"), 10, "(10,nan,30)");
   write(wrong, eight_);
   EXPECT_EQ(refusal(), "line 7: its 'space origin' is '(10,nan,30)', which is no place");

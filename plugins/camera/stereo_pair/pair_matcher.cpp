@@ -12,6 +12,14 @@ void PairMatcher::add(Side side, StampedPicture picture) {
   if (!waiting.empty() && picture.stamp <= waiting.back().stamp) {
     while (!waiting.empty()) drop_oldest(side);
   }
+  std::optional<Rhythm>& rhythm = rhythms_[static_cast<std::size_t>(side)];
+  if (rhythm && picture.stamp > rhythm->newest) {
+    const Duration passed = picture.stamp - rhythm->newest;
+    rhythm->interval = std::min(passed, std::exchange(rhythm->before, passed).value_or(passed));
+    rhythm->newest = picture.stamp;
+  } else {
+    rhythm = {.newest = picture.stamp, .before = {}, .interval = {}};
+  }
   if (waiting.size() == kMaxWaiting) drop_oldest(side);
   waiting.push_back(std::move(picture));
 }
@@ -32,6 +40,13 @@ void PairMatcher::drop_oldest(Side side) {
   ++unpaired_;
 }
 
+/// `distance`: of the oldest picture of the other camera from the one that waits of `older`.
+bool PairMatcher::may_nearer_come(Side older, Duration distance) {
+  const auto& rhythm = rhythms_[static_cast<std::size_t>(older)];
+  const bool both_newest = of(Side::left).size() == 1 && of(Side::right).size() == 1;
+  return both_newest && rhythm->interval && 2 * distance > *rhythm->interval;
+}
+
 std::optional<MatchedPair> PairMatcher::next() {
   std::deque<StampedPicture>&left = of(Side::left), &right = of(Side::right);
   while (!left.empty() && !right.empty()) {
@@ -45,6 +60,7 @@ std::optional<MatchedPair> PairMatcher::next() {
       drop_oldest(older);
       continue;
     }
+    if (may_nearer_come(older, std::chrono::abs(ahead))) break;
     MatchedPair pair{std::move(left.front()), std::move(right.front())};
     last_gone_ = {pair.left.stamp, pair.right.stamp};
     left.pop_front();

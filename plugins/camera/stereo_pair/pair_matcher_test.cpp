@@ -29,6 +29,11 @@ class PairMatcherTest : public testing::Test {
   PairMatcher matcher_{seconds(0.005)};
 };
 
+class WideSkewTest : public PairMatcherTest {
+ protected:
+  WideSkewTest() { matcher_ = PairMatcher{seconds(0.05)}; }
+};
+
 TEST_F(PairMatcherTest, PairsPicturesThatAreAtMostTheSkewApart) {
   left(10);
   EXPECT_EQ(pairs(), "");
@@ -84,6 +89,64 @@ TEST_F(PairMatcherTest, HoldsNoMoreThanItsRoomOfACameraWhoseTwinIsSilent) {
   EXPECT_EQ(matcher_.last_distance(), std::nullopt);
   right(99);
   EXPECT_EQ(pairs(), "99+99");
+}
+
+/// Of 30 Hz each, the right one 30 ms behind the left one, which is 3 ms before its next picture.
+TEST_F(WideSkewTest, ThePictureThatIsNearestMayComeLater) {
+  std::string all;
+  for (int i = 0; i < 5; ++i) {
+    left(33 * i);
+    all += pairs() + ";";
+    right(33 * i + 30);
+    all += pairs() + ";";
+  }
+  EXPECT_EQ(all, ";0+30;;;66+63;;99+96;;132+129;;")
+      << "how fast a camera is, its second picture tells";
+}
+
+TEST_F(WideSkewTest, APictureWaitsForANearerOneNoLongerThanUntilTheNextOfItsOwnCamera) {
+  left(0);
+  left(33);
+  right(1);
+  EXPECT_EQ(pairs(), "0+1");
+  right(63);
+  EXPECT_EQ(pairs(), "") << "66 would be nearer, and is lost";
+  right(96);
+  EXPECT_EQ(pairs(), "33+63");
+  left(99);
+  EXPECT_EQ(pairs(), "99+96");
+  EXPECT_EQ(matcher_.unpaired(), 0U);
+}
+
+TEST_F(WideSkewTest, PairsThatAreNearerThanHalfAPeriodWaitForNothing) {
+  for (int i = 0; i < 5; ++i) {
+    left(33 * i);
+    right(33 * i + 16);
+    EXPECT_EQ(pairs(), ms(at_ms(33 * i)) + "+" + ms(at_ms(33 * i + 16)));
+  }
+}
+
+/// Two free running cameras of 30 Hz at any distance, each with 1 ms of jitter.
+TEST_F(WideSkewTest, NoPairIsFartherApartThanHalfAPeriodWhateverTheClocksAre) {
+  constexpr std::uint64_t kSeed = 12;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937_64 random{kSeed};
+  std::uniform_real_distribution<double> jitter{-1, 1};
+  int paired = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const double behind = 0.011 * i;  // of the right camera against the left one: up to a period
+    left(33.3 * i + jitter(random));
+    while (const auto pair = matcher_.next()) {
+      EXPECT_LE(pair->skew(), seconds(0.0187)) << i;
+      ++paired;
+    }
+    right(33.3 * i + behind + jitter(random));
+    while (const auto pair = matcher_.next()) {
+      EXPECT_LE(pair->skew(), seconds(0.0187)) << i;
+      ++paired;
+    }
+  }
+  EXPECT_GT(paired, 2950) << "near half a period the jitter decides which one is left over";
 }
 
 /// Two free running cameras of 30 Hz, each with 1 ms of jitter, and every tenth picture lost.

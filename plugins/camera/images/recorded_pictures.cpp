@@ -127,7 +127,7 @@ pictures::TimedPicture RecordedPictures::picture_of(pictures::Side side,
   return timed;
 }
 
-std::optional<pictures::TimedPicture> RecordedPictures::next() {
+std::optional<pictures::TimedPicture> RecordedPictures::read_next() {
   try {
     while (const auto message = reader_->next()) {
       const auto side = side_of(*message);
@@ -140,20 +140,31 @@ std::optional<pictures::TimedPicture> RecordedPictures::next() {
       }
       return picture_of(*side, *message);
     }
-    if (!reader_->problems().empty()) problem_ = reader_->problems().front();
   } catch (const std::runtime_error& error) {
-    problem_ = error.what();
+    error_ = error.what();
   }
+  ended_ = true;
   return std::nullopt;
+}
+
+pictures::TimedPicture RecordedPictures::damage(const std::string& problem) {
+  const std::string told = file_.string() + ": " + problem;
+  if (remark_.empty()) remark_ = told;
+  return {.picture = refuse(told)};
+}
+
+std::optional<pictures::TimedPicture> RecordedPictures::next() {
+  if (!next_ && !ended_) next_ = read_next();
+  if (told_ < reader_->problems().size()) return damage(reader_->problems()[told_++]);
+  if (!error_.empty()) return damage(std::exchange(error_, {}));
+  return std::exchange(next_, std::nullopt);
 }
 
 void RecordedPictures::rewind() {
   reader_ = std::make_unique<McapReader>(file_);
   last_left_.reset();
-}
-
-std::string RecordedPictures::remark() const {
-  return problem_.empty() ? "" : file_.string() + ": " + problem_;
+  ended_ = false;
+  told_ = 0;
 }
 
 }  // namespace armature::camera::images

@@ -15,6 +15,7 @@ namespace armature::camera::images {
 
 /// The pictures of two topics of an MCAP file: sensor_msgs/Image, or sensor_msgs/CompressedImage.
 /// Of a recording that was joined it plays each once, as the process that sent it has recorded it.
+/// Where the file is damaged, or ends too early, it tells that in place of what is missing there.
 class RecordedPictures final : public pictures::PictureSource {
  public:
   /// `left` and `right` are whole names of topics, or their last words: "left/image_raw" of
@@ -25,9 +26,11 @@ class RecordedPictures final : public pictures::PictureSource {
   std::optional<pictures::TimedPicture> next() override;
   void rewind() override;
   Duration last_interval() const override { return last_interval_; }
-  std::string remark() const override;
+  std::string remark() const override { return remark_; }
 
  private:
+  std::optional<pictures::TimedPicture> read_next();
+  pictures::TimedPicture damage(const std::string& problem);
   std::optional<pictures::Side> side_of(const McapMessage& message) const;
   pictures::TimedPicture picture_of(pictures::Side side, const McapMessage& message) const;
 
@@ -37,7 +40,11 @@ class RecordedPictures final : public pictures::PictureSource {
   std::unique_ptr<McapReader> reader_;
   std::optional<Time> last_left_;
   Duration last_interval_;
-  std::string problem_;
+  std::optional<pictures::TimedPicture> next_;  // read, and what was met on the way is told first
+  bool ended_ = false;
+  std::size_t told_ = 0;  // of the reader's problems
+  std::string error_;     // at which reading ended, not told yet
+  std::string remark_;
 };
 
 }  // namespace armature::camera::images

@@ -11,6 +11,8 @@
 #include "armature/messages/header.hpp"
 #include "armature/recording/recorded_processes.hpp"
 #include "armature/recording/recording_test.hpp"
+#include "armature/runtime/testing/component_harness.hpp"
+#include "armature/runtime/testing/test_plugins.hpp"
 #include "tests/refusal.hpp"
 
 namespace armature::camera::images {
@@ -49,6 +51,23 @@ class RecordedPicturesTest : public testing::Test {
     const Time at = Time{} + seconds(at_s);
     writer.write(channel, ++sequence_, at + seconds(9), at, cdr);
   }
+  /// Three left pictures, each in a chunk of its own; the second one is damaged.
+  void write_damaged() {
+    write([&](McapWriter& writer) {
+      for (const int i : {1, 2, 3}) {
+        put(writer, left_, grey_image(i, static_cast<std::uint8_t>(i)), i);
+        writer.end_chunk();
+      }
+    });
+    McapReader reader{file_.path()};
+    reader.next();
+    reader.next();
+    damaged_ = reader.chunk();
+    constexpr std::size_t kChecksum = 33;  // bytes into a chunk
+    std::string bytes = file_.bytes();
+    bytes[damaged_ + kChecksum] ^= 1;
+    file_.replace(bytes);
+  }
   std::string refusal(const std::string& left, const std::string& right) const {
     return test::refusal_of([&] { RecordedPictures{file_.path(), left, right}; });
   }
@@ -56,6 +75,7 @@ class RecordedPicturesTest : public testing::Test {
   RecordingFile file_{"pictures"};
   std::uint16_t left_ = 0, right_ = 0, other_ = 0;
   std::uint32_t sequence_ = 0;
+  std::uint64_t damaged_ = 0;  // the chunk at this byte
 };
 
 TEST_F(RecordedPicturesTest, PlaysBothTopicsWithTheirOwnTimesAgainAndAgain) {
@@ -107,7 +127,7 @@ TEST_F(RecordedPicturesTest, OfAJoinedRecordingPlaysEachPictureOnce) {
     RecordedPictures pictures{file_.path(), "left/image_raw", "right/image_raw"};
     std::string sides;
     while (const auto picture = pictures.next()) {
-      sides += picture->side == pictures::Side::left ? 'l' : 'r';
+      if (picture->picture) sides += picture->side == pictures::Side::left ? 'l' : 'r';
     }
     EXPECT_EQ(pictures.last_interval(), seconds(0.1));
     return sides;
@@ -147,6 +167,50 @@ TEST_F(RecordedPicturesTest, RefusesAFileThatIsNoRecordingAndPlaysOneThatWasCutO
   while (pictures.next()) {
   }
   EXPECT_NE(pictures.remark(), "");
+}
+
+TEST_F(RecordedPicturesTest, TellsADamagedChunkWhereItsPicturesAreMissingInEachRound) {
+  write_damaged();
+  RecordedPictures pictures{file_.path(), "left/image_raw", "right/image_raw"};
+  for (int round = 0; round < 2; ++round) {
+    EXPECT_EQ(pictures.next()->picture.value().pixels.front(), 1);
+    EXPECT_EQ(pictures.next()->picture.error().text,
+              file_.path().string() + ": the chunk at byte " + std::to_string(damaged_) +
+                  " has a wrong checksum");
+    EXPECT_EQ(pictures.next()->picture.value().pixels.front(), 3);
+    EXPECT_EQ(pictures.next()->picture.error().text,
+              file_.path().string() + ": the checksum of its messages is wrong: it was changed");
+    EXPECT_FALSE(pictures.next());
+    EXPECT_FALSE(pictures.next());
+    pictures.rewind();
+  }
+}
+
+TEST_F(RecordedPicturesTest, ADamagedRecordingEndsTheRunWithItsNameOrIsCounted) {
+  write_damaged();
+  const auto play = [&](const std::string& more) {
+    ComponentHarness images{
+        built_plugins(),
+        {.component = "{plugin: camera/images, params: {recording: " + file_.path().string() +
+                      ", left_topic: left/image_raw, right_topic: "
+                      "right/image_raw" +
+                      more + "}}",
+         .robot = {}}};
+    for (int i = 0; i < 40; ++i) images.step(0.1 * i);
+    return images.figures();
+  };
+  for (const std::string at_end : {"", ", at_end: loop", ", at_end: end_run"}) {
+    const auto refused = play(at_end);
+    EXPECT_EQ(refused.status, "refused") << at_end;
+    EXPECT_NE(refused.reason.find(" has a wrong checksum; bad_pictures: skip leaves"),
+              std::string::npos)
+        << refused.reason;
+    EXPECT_EQ(refused.metrics.at("pictures"), 1);
+  }
+  const auto played = play(", bad_pictures: skip");
+  EXPECT_EQ(played.status, "");
+  EXPECT_EQ(played.metrics.at("pictures"), 2);
+  EXPECT_EQ(played.metrics.at("pictures_skipped"), 2) << "the chunk, and the file that has it";
 }
 
 TEST_F(RecordedPicturesTest, TellsAMessageThatIsNoPictureItCanRead) {

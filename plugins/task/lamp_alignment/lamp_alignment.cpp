@@ -66,7 +66,8 @@ LampAlignment::LampAlignment(const Parameters& parameters, double joint_6_to_lam
       light_{parameters},
       face_{parameters},
       at_rest_{window_of(parameters)},
-      recent_{few_} {}
+      recent_{few_},
+      new_level_{light_.level()} {}
 
 void LampAlignment::see(const Picture& picture, Time now) {
   face_.see(picture, now);

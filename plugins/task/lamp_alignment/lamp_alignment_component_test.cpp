@@ -82,15 +82,17 @@ TEST_F(LampAlignmentComponentTest, ChecksTheLightFirstWithTheCamerasOn) {
   EXPECT_EQ(states_[0].state_(), "checking light");
   EXPECT_EQ(states_[0].steps_(), 0u);
   EXPECT_TRUE(goals_.empty());
+  ASSERT_EQ(levels_.size(), 1u);
+  EXPECT_EQ(levels_[0].level_(), 0);
   EXPECT_EQ(task_.lines(), (std::vector<std::string>{
                                "nobody confirms the steps towards the patient (auto_confirm: true)",
-                               "checking light"}));
+                               "light level 0 %", "checking light"}));
 }
 
 TEST_F(LampAlignmentComponentTest, TellsItsStateFiveTimesASecondAndAtEveryChange) {
   steps(101);
   EXPECT_NEAR(static_cast<double>(states_.size()), 2 * 5 + 1, 1);
-  EXPECT_EQ(task_.lines().size(), 2u) << "the operator is told of changes only";
+  EXPECT_EQ(task_.lines().size(), 3u) << "the operator is told of changes only";
   states_.clear();
   see_picture(120);
   step();
@@ -106,13 +108,13 @@ TEST_F(LampAlignmentComponentTest, RaisesTheLightOneStepForEachDarkPicture) {
     step();
     see_picture(30);
     step();
-    ASSERT_EQ(levels_.size(), static_cast<std::size_t>(i));
+    ASSERT_EQ(levels_.size(), static_cast<std::size_t>(i + 1)) << "and the one of the start";
     EXPECT_NEAR(levels_.back().level_(), 0.1 * i, 1e-12);
     EXPECT_EQ(stamp_of(levels_.back().header_().stamp_()), Time{} + seconds(now_s_));
     EXPECT_EQ(task_.lines().back(), "light level " + std::to_string(10 * i) + " %");
   }
   steps(20);
-  EXPECT_EQ(levels_.size(), 3u);
+  EXPECT_EQ(levels_.size(), 4u);
 }
 
 TEST_F(LampAlignmentComponentTest, SendsAGoalForASearchPoseWithTheCamerasOff) {

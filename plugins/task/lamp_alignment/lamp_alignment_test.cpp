@@ -380,6 +380,18 @@ TEST_F(LampAlignmentTest, SaysWhatTheLightCannotMend) {
   EXPECT_EQ(task_.trouble(), "");
 }
 
+TEST_F(LampAlignmentTest, TheLampGetsTheLevelOfTheStartAtOnce) {
+  for (const double level : {0.0, 1.0}) {
+    task_ = LampAlignment{Parameters{.light_level = level, .auto_confirm = true}, 0.08};
+    light_ = 0.5;  // as it was before
+    tick();
+    EXPECT_EQ(light_, level);
+  }
+  gain_ = 0.5;
+  EXPECT_TRUE(run_until(Phase::holding, 15));
+  EXPECT_EQ(task_.trouble(), "") << "with the light it is bright enough";
+}
+
 TEST_F(LampAlignmentTest, RaisesTheLightInADarkRoomBeforeItSearches) {
   gain_ = 0.3;
   ASSERT_TRUE(run_until(Phase::searching, 5));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lamp_alignment.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -159,6 +161,11 @@ void LampAlignment::align_with(const FaceEstimate& estimate, Phase phase, Time n
   goals_.set(face_goal(estimate, parameters_.distance));
 }
 
+std::string LampAlignment::failure(const char* goes_on_for) const {
+  if (!goals_.stopped() || !goals_.may_move()) return goals_.reason();
+  return fmt::format("it was stopped: {}, or 'back', makes it go on", goes_on_for);
+}
+
 bool LampAlignment::has_moved() const { return recent_.have_left(few_, moved_, *goal_estimate_); }
 
 void LampAlignment::follow_if_moved(Time now) {
@@ -198,7 +205,7 @@ bool LampAlignment::lost() const {
 void LampAlignment::come_to_rest(Time now) {
   if (goals_.state() == GoalState::failed) {
     phase_ = Phase::unreachable;
-    trouble_ = goals_.reason();
+    trouble_ = failure("a patient who moves");
     refused_ = 1;
     return;
   }
@@ -260,7 +267,7 @@ void LampAlignment::wait_for_another_face_position(Time now) {
   }
   if (goals_.state() == GoalState::failed) {
     const std::string doubt = face_.disbelief(goal_set_at_);
-    trouble_ = doubt.empty() ? goals_.reason() : doubt;
+    trouble_ = doubt.empty() ? failure("a patient who moves") : doubt;
   }
   const double wait_s = std::min(std::ldexp(parameters_.replan_interval, refused_ - 1),
                                  parameters_.max_retry_interval);

@@ -79,6 +79,8 @@ class LampAlignment {
   void next_view();
   void search(Time now);
   std::string reason_to_leave();
+  /// Why the goal has failed; behind a stop and a rearm, what it waits for.
+  std::string failure(const char* goes_on_for) const;
   void leave_failed_view(Time now);
   void wait_for_a_view(Time now);
   void align_with(const FaceEstimate& estimate, Phase phase, Time now);

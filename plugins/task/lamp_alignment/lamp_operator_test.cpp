@@ -21,6 +21,14 @@ class OperatedLampTest : public LampAlignmentTest {
     EXPECT_EQ(say("confirm", step), "");
   }
 
+  void tell_rearmed() {
+    task_.hear({.goal_id = goals_.back().id,
+                .state = GoalReport::State::failed,
+                .stage = "accept",
+                .reason = "the arm was stopped and rearmed since; give it again to go on"},
+               now_);
+  }
+
   std::uint64_t said_ = 0;
 };
 
@@ -75,6 +83,46 @@ TEST_F(OperatedLampTest, AfterAStopInTheSearchItAsksForNoFaceThatIsGone) {
   run(5);
   EXPECT_EQ(task_.phase(), Phase::searching);
   EXPECT_EQ(goals_.size(), goals + 1) << "a view, from which no picture comes";
+}
+
+TEST_F(OperatedLampTest, AfterAStopInTheSearchBackSearchesAgainOnceThatIsConfirmed) {
+  present_ = false;
+  confirm("search");
+  run(0.5);
+  stop();
+  run(2);
+  EXPECT_EQ(task_.trouble(), "stop: stopped until it is rearmed");
+  EXPECT_EQ(say("back"), "the arm is stopped: rearm it first");
+  rearm();
+  tell_rearmed();
+  run(1);
+  EXPECT_EQ(task_.trouble(), "it was stopped: a face before it, or 'back', makes it go on");
+  EXPECT_EQ(say("back"), "");
+  EXPECT_EQ(asked(), "search");
+  const std::size_t goals = goals_.size();
+  run(5);
+  EXPECT_LE(goals_.size(), goals + 1) << "it holds";
+  present_ = true;
+  confirm("search");
+  confirm("alignment");
+  EXPECT_TRUE(run_until(Phase::holding, 20));
+  EXPECT_EQ(task_.trouble(), "");
+}
+
+TEST_F(OperatedLampTest, AfterAStopOnTheWayToTheFaceItSaysWhatItWaitsFor) {
+  confirm("search");
+  confirm("alignment");
+  ASSERT_TRUE(run_until(Phase::aligning, 5));
+  tick();
+  stop();
+  run(1);
+  EXPECT_EQ(task_.trouble(), "stop: stopped until it is rearmed");
+  rearm();
+  tell_rearmed();
+  tick();
+  EXPECT_EQ(task_.trouble(), "it was stopped: a patient who moves, or 'back', makes it go on");
+  EXPECT_EQ(say("back"), "");
+  EXPECT_EQ(asked(), "search");
 }
 
 TEST_F(OperatedLampTest, AQuestionThatIsConfirmedLateSetsOutForNoFaceThatIsOld) {

@@ -102,13 +102,13 @@ void LampAlignment::leave_failed_view(Time now) {
     return;
   }
   phase_ = Phase::no_view;
-  trouble_ = goals_.stopped() ? goals_.reason()
-                              : "every search pose failed, the last one: " + goals_.reason();
+  if (!goals_.stopped()) trouble_ = "every search pose failed, the last one: " + goals_.reason();
   capture_ = true;
   looking_since_ = goal_set_at_ = now;
 }
 
 void LampAlignment::wait_for_a_view(Time now) {
+  if (goals_.stopped()) trouble_ = failure("a face before it");
   if (aligns_with_seen_face(Step::search, now) || !procedure_.may_act()) return;
   if (goals_.state() == GoalState::moving || goals_.state() == GoalState::done) {
     phase_ = Phase::searching;

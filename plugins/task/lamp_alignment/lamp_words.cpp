@@ -26,7 +26,9 @@ Expected<void> LampAlignment::may_resume(Time now) const {
 
 Expected<void> LampAlignment::go_back(Time now) {
   if (phase_ == Phase::aborting) return refuse("it is being aborted");
-  if (step() != Step::alignment) return refuse("the search is the first step that moves the lamp");
+  if (step() != Step::alignment && phase_ != Phase::no_view) {
+    return refuse("the search is the first step that moves the lamp");
+  }
   if (const auto may = goals_.may_move(); !may) return may;
   procedure_.turn_back();
   goals_.set({.mode = MotionMode::hold, .pose = {}});

@@ -17,6 +17,8 @@ constexpr int kMovedGrey = 12;        // grey values: noise of two pictures reac
 constexpr int kNoisyPairs = 3;
 constexpr const char* kOtherChanges = "the other camera's changes";
 constexpr const char* kWasNoisy = "there was noise before";
+constexpr const char* kOneWasNoisy =
+    "there was noise before in one, and that one changed while the other did not";
 
 std::size_t thinned(int pixels) {
   return (static_cast<std::size_t>(pixels) + kThinning - 1) / kThinning;
@@ -110,7 +112,8 @@ std::optional<FrozenCameras::Frozen> FrozenCameras::look_at(const ImageView& lef
                   .repeats = cameras_[i].repeats};
   };
   if (cameras_[0].proof && cameras_[1].proof) {
-    return frozen(0, "both cameras are frozen", kWasNoisy,
+    const bool alike = cameras_[0].proof == cameras_[1].proof;
+    return frozen(0, "both cameras are frozen", alike ? cameras_[0].proof : kOneWasNoisy,
                   "look at what they share, and start their drivers again");
   }
   for (std::size_t i = 0; i < cameras_.size(); ++i) {

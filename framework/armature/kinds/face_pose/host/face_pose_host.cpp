@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "armature/kinds/face_pose/face_pose.hpp"
 #include "armature/kinds/face_pose/frozen_cameras.hpp"
@@ -76,7 +77,7 @@ class FacePoseHost final : public Component {
   RowDrift row_drift_;
   std::optional<FrozenCameras::Frozen> frozen_;  // the last pair, which is no pair then
   std::optional<Time> told_;
-  bool tells_of_frozen_ = false;
+  std::string told_frozen_;
 };
 
 Expected<FacePose> FacePoseHost::estimate() {
@@ -121,10 +122,10 @@ void FacePoseHost::tell(Time now) {
     told_.reset();
     return healthy();
   }
-  const bool is_known = told_ && tells_of_frozen_ == is_frozen();
-  if (is_known && now - *told_ < kTellEvery) return;
+  std::string frozen = is_frozen() ? frozen_->why : "";
+  if (told_ && told_frozen_ == frozen && now - *told_ < kTellEvery) return;
   told_ = now;
-  tells_of_frozen_ = is_frozen();
+  told_frozen_ = std::move(frozen);
   degraded(*wrong);
 }
 

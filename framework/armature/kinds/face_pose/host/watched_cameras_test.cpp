@@ -93,6 +93,22 @@ TEST_F(FacePoseHostAndCameras, BothFrozenIsSeenByTheNoiseThatIsNoMoreThere) {
   EXPECT_TRUE(look().valid_());
 }
 
+TEST_F(FacePoseHostAndCameras, WhichCameraIsFrozenIsToldAnewWhenItIsAnotherOne) {
+  look_at_noise(4);
+  const auto stay = [&](bool of_left, bool of_right, const std::string& told) {
+    for (int i = 0; i < 4; ++i) {
+      take(of_left, of_right);
+      EXPECT_FALSE(look().valid_()) << "seed " << kSeed << ", pair " << i;
+    }
+    EXPECT_THAT(host_.status().reason, testing::StartsWith(told));
+  };
+  stay(false, true, "the left camera is frozen: ");
+  stay(false, false,
+       "both cameras are frozen: the same picture again, to the last bit, though there was noise "
+       "before in one, and that one changed while the other did not; ");
+  stay(true, false, "the right camera is frozen: ");
+}
+
 TEST_F(FacePoseHostAndCameras, AStillSceneWithoutNoiseIsNotFrozen) {
   take(true, true, 0);
   for (int i = 0; i < 40; ++i) EXPECT_TRUE(look().valid_()) << i;

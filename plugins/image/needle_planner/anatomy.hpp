@@ -20,7 +20,7 @@ struct Lesion {
 /// several of which nobody says which is meant, with their places.
 Expected<Lesion> find_lesion(const Volume& volume, const Parameters& parameters);
 
-/// Vessels, as capsules that hold all of their voxels: "vessel 1", "vessel 2", ...
+/// Vessels, as capsules that hold the middles of all of their voxels: "vessel 1", "vessel 2", ...
 std::vector<ForbiddenZone> find_vessels(const Volume& volume, const Parameters& parameters);
 
 }  // namespace armature::image::needle_planner

@@ -73,30 +73,37 @@ std::optional<std::string> NeedlePath::obstacle(const Line& line, double from, d
   return std::nullopt;
 }
 
-std::optional<std::string> NeedlePath::entered_before(const Line& line,
+std::optional<std::string> NeedlePath::near_stand_off(const Line& line,
                                                       const PathRequest& request) const {
-  constexpr double kRounding_m = 1e-9;
   const Vector3d stand_off = line.point(-parameters_.stand_off);
   for (const ForbiddenZone& zone : request.forbidden) {
     if (!zone.tool_enters) continue;
-    const auto left_between = [&](const Vector3d& from, const Vector3d& to) {
-      return clearance(from, to, zone) - parameters_.needle_radius;
+    const double left = clearance(stand_off, stand_off, zone) - parameters_.needle_radius;
+    if (left >= parameters_.margin) continue;
+    return fmt::format(
+        "the needle leaves {:.2f} mm to '{}' at its stand-off, {:g} mm before the entry, {:g} mm "
+        "are required (margin_mm): is the entry on the side that it comes from, and stand_off_mm "
+        "large enough?",
+        1e3 * left, zone.name, 1e3 * parameters_.stand_off, 1e3 * parameters_.margin);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> NeedlePath::entered_before(const Line& line, double from,
+                                                      const PathRequest& request) const {
+  constexpr double kRounding_m = 1e-9;
+  for (const ForbiddenZone& zone : request.forbidden) {
+    if (!zone.tool_enters) continue;
+    const auto left_from = [&](double at) {
+      return clearance(line.point(at), line.entry, zone) - parameters_.needle_radius;
     };
-    const double at_begin = left_between(stand_off, stand_off);
-    if (at_begin < parameters_.margin) {
-      return fmt::format(
-          "the needle leaves {:.2f} mm to '{}' at its stand-off, {:g} mm before the entry, {:g} mm "
-          "are required (margin_mm): is the entry on the side that it comes from, and stand_off_mm "
-          "large enough?",
-          1e3 * at_begin, zone.name, 1e3 * parameters_.stand_off, 1e3 * parameters_.margin);
-    }
     // It may come as near as the entry itself is, and into the zone there.
-    const double allowed = std::min(parameters_.margin, left_between(line.entry, line.entry));
-    const double nearest = left_between(stand_off, line.entry);
+    const double allowed = std::min(parameters_.margin, left_from(0));
+    const double nearest = left_from(from);
     if (nearest >= allowed - kRounding_m) continue;
     return fmt::format(
-        "the needle leaves {:.2f} mm to '{}' on its way from the stand-off to the entry, {:.2f} mm "
-        "are required: the entry is not where it comes in",
+        "the needle leaves {:.2f} mm to '{}' on its way to the entry, {:.2f} mm are required: the "
+        "entry is not where it comes in",
         1e3 * nearest, zone.name, 1e3 * allowed);
   }
   return std::nullopt;
@@ -137,8 +144,13 @@ Expected<Path> NeedlePath::plan(const PathRequest& request) const {
                     "(step_mm)",
                     std::abs(goal - begin), kMaxSteps, 1e3 * parameters_.step));
   }
-  if (auto wrong = obstacle(*line, std::min(begin, goal), std::max(begin, goal), *valid)) {
-    return refuse(std::move(*wrong));
+  // The way back is the way that the needle came: nothing on it is nearer than it is now.
+  const bool goes_in = !on_line || goal >= begin;
+  if (goes_in) {
+    const double from = std::min({begin, goal, -parameters_.stand_off});
+    if (auto wrong = obstacle(*line, from, std::max(begin, goal), *valid)) {
+      return refuse(std::move(*wrong));
+    }
   }
   if (parameters_.needle_at_entry > 0 && parameters_.needle_at_entry + std::min(begin, goal) < 0) {
     return refuse(
@@ -156,11 +168,14 @@ Expected<Path> NeedlePath::plan(const PathRequest& request) const {
                       "it has to be drawn back first",
                       1e3 * here, 1e3 * aside));
     }
-    if (auto wrong = entered_before(*line, *valid)) return refuse(std::move(*wrong));
+    if (auto wrong = near_stand_off(*line, *valid)) return refuse(std::move(*wrong));
     path.push_back({.space = PathSegment::Space::joint,
                     .samples = {sample(*line, begin, 1, valid->goal)},
                     .stop_at_end = true,
                     .duration_s = {}});
+  }
+  if (goes_in && begin < -parameters_.on_line_m) {
+    if (auto wrong = entered_before(*line, begin, *valid)) return refuse(std::move(*wrong));
   }
   // A stop at the entry, whichever way it is passed.
   const bool passes_entry = std::min(begin, goal) < -parameters_.on_line_m &&

@@ -21,8 +21,11 @@ class NeedlePath final : public PathPlanner {
   bool is_on(const Line& line, const ToolPose& pose) const;
   std::optional<std::string> obstacle(const Line& line, double from, double to,
                                       const PathRequest& request) const;
-  /// The needle is in a zone that it enters on its line, or near it, before it is at the entry.
-  std::optional<std::string> entered_before(const Line& line, const PathRequest& request) const;
+  /// The stand-off is in a zone that the needle enters on its line, or near it.
+  std::optional<std::string> near_stand_off(const Line& line, const PathRequest& request) const;
+  /// The needle comes into such a zone, or near it, between `from` and the entry.
+  std::optional<std::string> entered_before(const Line& line, double from,
+                                            const PathRequest& request) const;
   PathSample sample(const Line& line, double at, double s, const ToolPose& goal) const;
   PathSegment straight(const Line& line, double from, double to, const ToolPose& goal) const;
 

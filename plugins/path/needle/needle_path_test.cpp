@@ -145,7 +145,7 @@ TEST_P(NeedlePaths, AHeadIsEnteredOnTheLineAndNotAtTheStandOff) {
             "the needle leaves -71.00 mm to 'head' at its stand-off, 50 mm before the entry, 2 mm "
             "are required (margin_mm): is the entry on the side that it comes from, and "
             "stand_off_mm large enough?");
-  request.start = {{0, 0, -0.01}, Direction{{0, 0, 1}}};
+  request.start = {{0, 0, 0.01}, Direction{{0, 0, 1}}};
   EXPECT_TRUE(planner().plan(request)) << "on its line it goes on, and comes out";
   request.forbidden[0].tool_enters = false;
   EXPECT_FALSE(planner().plan(request)) << "what is entered by nothing";
@@ -158,12 +158,48 @@ TEST_P(NeedlePaths, WhatBelongsToAHeadIsNotPassedThroughBeforeTheEntry) {
   request.forbidden = {{"head", {0, 0, -0.079}, {0, 0, -0.079}, 0.08, true},
                        {"ear", {0, 0.01, 0.02}, {0, 0.01, 0.02}, 0.008, true}};
   EXPECT_EQ(planner().plan(request).error().text,
-            "the needle leaves 1.00 mm to 'ear' on its way from the stand-off to the entry, 2.00 "
-            "mm are required: the entry is not where it comes in");
+            "the needle leaves 1.00 mm to 'ear' on its way to the entry, 2.00 mm are required: the "
+            "entry is not where it comes in");
   request.forbidden[1].radius_m = 0.006;
   EXPECT_TRUE(planner().plan(request));
   request.forbidden[1] = {"cheek", {0, 0.03, -0.04}, {0, 0.03, -0.04}, 0.052, true};
   EXPECT_TRUE(planner().plan(request)) << "the entry is in it as well";
+}
+
+TEST_P(NeedlePaths, AHeadIsNotPassedThroughBeforeTheEntryFromTheLineEither) {
+  PathRequest request{.goal = {{0.06, 0, 0}, Direction{{1, 0, 0}}}, .focus = Vector3d{0, 0, 0}};
+  request.forbidden = {{"nose", {-0.03, 0, 0}, {-0.03, 0, 0}, 0.01, true}};
+  const auto from = [&](double at) {
+    request.start = {{at, 0, 0}, Direction{{1, 0, 0}}};
+    return planner().plan(request);
+  };
+  for (const double behind_nose : {-0.05, -0.2}) {
+    EXPECT_EQ(from(behind_nose).error().text,
+              "the needle leaves -11.00 mm to 'nose' on its way to the entry, 2.00 mm are "
+              "required: the entry is not where it comes in");
+  }
+  EXPECT_FALSE(from(-0.03)) << "in it";
+  EXPECT_TRUE(from(-0.015)) << "the nose is behind the tip";
+  request.goal.position.x() = -0.25;
+  EXPECT_TRUE(from(-0.2)) << "drawn back, away from it";
+}
+
+TEST_P(NeedlePaths, ANeedleThatIsTooNearAVesselIsDrawnBackAndGoesNoDeeper) {
+  PathRequest request{.start = {{0.06, 0, 0}, Direction{{1, 0, 0}}},
+                      .goal = {{-0.05, 0, 0}, Direction{{1, 0, 0}}},
+                      .focus = Vector3d{0, 0, 0}};
+  // 1.9 mm are left before the tip: 4 mm of radius and 1 mm of needle.
+  request.forbidden = {{"ahead", {0.0669, -1, 0}, {0.0669, 1, 0}, 0.004}};
+  EXPECT_TRUE(planner().plan(request));
+  request.goal.position.x() = 0.061;
+  EXPECT_EQ(planner().plan(request).error().text,
+            "the needle leaves 0.90 mm to 'ahead', 2 mm are required (margin_mm)");
+  request.start.position.x() = 0.02;
+  request.forbidden = {{"pierced", {0.01, -1, 0}, {0.01, 1, 0}, 0.004}};
+  EXPECT_EQ(planner().plan(request).error().text,
+            "the needle leaves -5.00 mm to 'pierced', 2 mm are required (margin_mm)");
+  request.goal.position.x() = -0.05;
+  EXPECT_TRUE(planner().plan(request));
 }
 
 TEST_P(NeedlePaths, WhatWouldHurtIsRefused) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/robot/kinematics/joint_inertia.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "armature/robot/kinematics/kinematics.hpp"
@@ -22,7 +23,7 @@ JointInertia joint_inertia(const RobotModel& model, const JointVector& q) {
 }
 
 double felt_length(const RobotModel& model, const JointVector& way, const JointVector& to) {
-  return std::sqrt(way.dot(joint_inertia(model, to) * way));
+  return std::sqrt(std::max(0.0, way.dot(joint_inertia(model, to) * way)));
 }
 
 }  // namespace armature

@@ -70,5 +70,23 @@ TEST(JointInertia, WhatAFileDoesNotStateWeighsNothing) {
   EXPECT_EQ(joint_inertia(model, resting_position(model)).norm(), 0);
 }
 
+/// Joints 4 and 6 of one axis turn against each other; the sum of what they feel rounds below 0.
+TEST(JointInertia, AMoveThatTurnsNothingHasNoLength) {
+  constexpr unsigned kSeed = 7;
+  SCOPED_TRACE("seed " + std::to_string(kSeed));
+  std::mt19937 random{kSeed};
+  std::uniform_real_distribution<double> any{-2, 2};
+  RobotParts parts = loaded("sr1.yaml", {{"hand", 5, {0.07, 0.013, 0.1}, 1.3}}).parts();
+  for (Joint& joint : parts.joints) joint.drive_inertia = 0;
+  const RobotModel model = parts;
+  for (int i = 0; i < 1000; ++i) {
+    JointVector to = testing::random_joints(model, random), way = JointVector::Zero(6);
+    to[4] = 0;
+    way[3] = any(random);
+    way[5] = -way[3];
+    ASSERT_NEAR(felt_length(model, way, to), 0, 1e-7);
+  }
+}
+
 }  // namespace
 }  // namespace armature

@@ -183,9 +183,8 @@ tl::expected<JointVector, PlanFailure> GoalPlanner::solve(const ToolPose& pose,
   IkState state;
   const auto status = solved(*stages_.ik, IkGoal{.pose = pose}, near, waypoints_[0], state);
   if (!status || !reaches(*status)) return fail("ik", "the goal: " + reason_of(status));
-  auto chosen = guarded([&] { return stages_.select->choose(near, waypoints_); });
+  auto chosen = chosen_by(*stages_.select, model_, near, waypoints_);
   if (!chosen) return fail("select", chosen.error().text);
-  if (chosen->size() != 1) return fail("select", "the plugin did not answer for the waypoint");
   return chosen->front();
 }
 
@@ -350,11 +349,8 @@ tl::expected<void, PlanFailure> GoalPlanner::solve_samples(const Path& path,
 tl::expected<std::vector<JointSegment>, PlanFailure> GoalPlanner::joint_path(
     const Path& path, const JointVector& start) {
   if (waypoints_.empty()) return fail("path", "the path has no samples");
-  auto chosen = guarded([&] { return stages_.select->choose(start, waypoints_); });
+  auto chosen = chosen_by(*stages_.select, model_, start, waypoints_);
   if (!chosen) return fail("select", chosen.error().text);
-  if (chosen->size() != waypoints_.size()) {
-    return fail("select", "the plugin did not answer for every waypoint");
-  }
   std::vector<JointSegment> segments;
   JointVector last = start;
   std::size_t next = 0;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "armature/values/guarded.hpp"
+
 namespace armature {
 namespace {
 
@@ -27,6 +29,24 @@ std::optional<std::string> invalid_input(const RobotModel& model, const JointVec
     }
   }
   return std::nullopt;
+}
+
+Expected<std::vector<JointVector>> chosen_by(const BranchSelector& selector,
+                                             const RobotModel& model, const JointVector& start,
+                                             std::span<const IkBranches> waypoints) {
+  auto chosen = guarded([&] { return selector.choose(start, waypoints); });
+  if (!chosen) return chosen;
+  if (chosen->size() != waypoints.size()) {
+    return refuse(fmt::format("the plugin answered for {} of {} waypoints", chosen->size(),
+                              waypoints.size()));
+  }
+  for (std::size_t i = 0; i < chosen->size(); ++i) {
+    if (auto wrong = defect(model, (*chosen)[i]); !wrong.empty()) {
+      return refuse(
+          fmt::format("waypoint {} of {}: the plugin's answer {}", i + 1, waypoints.size(), wrong));
+    }
+  }
+  return chosen;
 }
 
 }  // namespace armature

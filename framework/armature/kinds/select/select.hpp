@@ -33,4 +33,10 @@ class BranchSelector {
 std::optional<std::string> invalid_input(const RobotModel& model, const JointVector& start,
                                          std::span<const IkBranches> waypoints);
 
+/// What `selector` chooses, held to what it was asked for: a joint position of `model` for each
+/// waypoint. What it throws is a reason like any other.
+Expected<std::vector<JointVector>> chosen_by(const BranchSelector& selector,
+                                             const RobotModel& model, const JointVector& start,
+                                             std::span<const IkBranches> waypoints);
+
 }  // namespace armature

@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <optional>
 #include <string>
 
 #include "armature/kinds/ik/ik.hpp"
@@ -26,6 +29,18 @@ msg::IkSolution solution_of(const RobotModel& robot, const IkBranch& branch) {
   return solution;
 }
 
+/// What is wrong with what a solver found, or nullopt.
+std::optional<std::string> defect(const RobotModel& robot, const IkBranches& branches) {
+  for (const IkBranch& branch : branches) {
+    if (branch.q.size() != robot.dof()) {
+      return fmt::format("the plugin answered {} joints, and the robot has {}", branch.q.size(),
+                         robot.dof());
+    }
+    if (!branch.q.allFinite()) return "the plugin answered joints that are not finite";
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 /// Poses in, every branch of every pose out.
@@ -43,7 +58,6 @@ class IkHost final : public RequestHost<msg::IkRequest, msg::IkResponse> {
 
   const RobotModel robot_, solver_model_;
   Slot<IkSolver> solver_;
-  IkState state_;
   IkBranches branches_;
 };
 
@@ -61,11 +75,15 @@ IkStatus IkHost::solve(const msg::IkRequest& request, std::string& reason) {
   IkGoal goal;
   goal.pose = tool_pose_of(request);
   if (request.has_redundancy_()) goal.redundancy = request.redundancy_();
-  const auto status = guarded(
-      state_, [&](IkState& state) { return solver_->solve(goal, *seed, branches_, state); });
-  if (!status) {
+  // Anyone asks, so what was chosen last is where the seed is.
+  const auto status = guarded([&] {
+    IkState state{.last_redundancy = solver_->redundancy_of(*seed)};
+    return solver_->solve(goal, *seed, branches_, state);
+  });
+  const auto wrong = status ? defect(robot_, branches_) : status.error().text;
+  if (wrong) {
     branches_.clear();
-    reason = status.error().text;
+    reason = *wrong;
     return {IkStatus::Code::no_convergence, 0, {}};
   }
   if (status->code != IkStatus::Code::ok) reason = describe(*status);

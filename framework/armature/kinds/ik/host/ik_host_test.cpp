@@ -25,12 +25,15 @@ class EchoIk final : public IkSolver {
   static inline IkGoal asked;
   static inline IkStatus answer;
   static inline bool throws = false;
+  static inline std::optional<JointVector> instead;
+  static inline std::optional<double> asked_last;
 
   EchoIk(const RobotModel& robot, const Params&) : robot_{robot} {}
   IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
-                 IkState&) const override {
+                 IkState& state) const override {
     out.clear();
     asked = goal;
+    asked_last = std::exchange(state.last_redundancy, 7);
     if (const char* wrong = invalid_input(robot_, goal, seed)) {
       return {IkStatus::Code::invalid_input, 0, wrong};
     }
@@ -40,9 +43,11 @@ class EchoIk final : public IkSolver {
                  .residual = {.position_m = 1e-12, .angle_rad = 2e-12},
                  .within_limits = true};
     out.add() = {.label = "seed", .q = seed, .singular = true};
+    if (instead) out.add() = {.label = "instead", .q = *instead};
     if (throws) throw std::runtime_error{"the matrix is singular"};
     return answer;
   }
+  std::optional<double> redundancy_of(const JointVector& q) const override { return q[0]; }
 
  private:
   const RobotModel& robot_;
@@ -117,6 +122,30 @@ TEST_F(IkHostTest, StartsFromTheSeedOrFromHomeWithoutOne) {
   msg::IkRequest seeded = request(2);
   seeded.seed_({0.5, -0.5, 0.25, -0.25, 1, 0.125});
   EXPECT_EQ(ask(seeded).solutions_()[1].joints_(), seeded.seed_());
+}
+
+TEST_F(IkHostTest, WhatIsRememberedFollowsFromTheSeedAndNotFromTheRequestBefore) {
+  msg::IkRequest seeded = request(1);
+  seeded.seed_({0.5, -0.5, 0.25, -0.25, 1, 0.125});
+  for (int i = 0; i < 2; ++i) {
+    ask(seeded);
+    EXPECT_EQ(EchoIk::asked_last, 0.5);
+  }
+}
+
+TEST_F(IkHostTest, AnAnswerThatIsNoJointPositionIsAReason) {
+  const auto refusal = [&](const JointVector& q) {
+    EchoIk::instead = q;
+    const msg::IkResponse answer = ask(request(1));
+    EchoIk::instead.reset();
+    EXPECT_EQ(answer.status_(), "no_convergence");
+    EXPECT_TRUE(answer.solutions_().empty());
+    return answer.reason_();
+  };
+  EXPECT_EQ(refusal(JointVector::Zero(3)), "the plugin answered 3 joints, and the robot has 5");
+  EXPECT_EQ(refusal(JointVector::Constant(5, NAN)),
+            "the plugin answered joints that are not finite");
+  EXPECT_EQ(ask(request(2)).status_(), "ok");
 }
 
 TEST_F(IkHostTest, HandsOnTheStatusWithItsReasonAndWhatWasFoundAllTheSame) {

@@ -10,7 +10,6 @@
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
-#include "armature/values/guarded.hpp"
 
 namespace armature {
 namespace {
@@ -64,7 +63,7 @@ class SelectHost final : public RequestHost<msg::SelectRequest, msg::SelectRespo
     if (!start) return tl::unexpected{start.error()};
     const auto waypoints = waypoints_of(robot_, request);
     if (!waypoints) return tl::unexpected{waypoints.error()};
-    return guarded([&] { return selector_->choose(*start, *waypoints); });
+    return chosen_by(*selector_, robot_, *start, *waypoints);
   }
 
   void answer(const msg::SelectRequest& request, msg::SelectResponse& response) override {

@@ -25,12 +25,14 @@ class LastBranch final : public BranchSelector {
   static inline std::vector<IkBranches> asked;
   static inline std::string label;
   static inline bool throws = false;
+  static inline std::optional<std::vector<JointVector>> instead;
 
   Expected<std::vector<JointVector>> choose(const JointVector& from,
                                             std::span<const IkBranches> waypoints) const override {
     start = from;
     asked.assign(waypoints.begin(), waypoints.end());
     if (throws) throw std::runtime_error{"the matrix is singular"};
+    if (instead) return *instead;
     std::vector<JointVector> chosen;
     for (const IkBranches& branches : waypoints) {
       if (branches.count == 0) {
@@ -155,6 +157,25 @@ TEST_F(SelectHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHa
             "waypoint 2 has 17 solutions, at most 16 are read");
   EXPECT_EQ(refusal([](auto& r) { r.waypoints_()[1].solutions_().clear(); }),
             "waypoint 2: no branch");
+}
+
+TEST_F(SelectHostTest, AnAnswerThatIsNoneIsRefused) {
+  const JointVector q = JointVector::Zero(5);
+  const auto refusal = [&](std::vector<JointVector> answered) {
+    LastBranch::instead = std::move(answered);
+    const msg::SelectResponse answer = ask(request(1));
+    LastBranch::instead.reset();
+    EXPECT_FALSE(answer.valid_());
+    EXPECT_TRUE(answer.waypoints_().empty());
+    return answer.reason_();
+  };
+  EXPECT_EQ(refusal({q}), "the plugin answered for 1 of 2 waypoints");
+  EXPECT_EQ(refusal({q, q, q}), "the plugin answered for 3 of 2 waypoints");
+  EXPECT_EQ(refusal({q, JointVector::Zero(3)}),
+            "waypoint 2 of 2: the plugin's answer has 3 joints, not the 5 independent ones of "
+            "dental_lamp");
+  EXPECT_EQ(refusal({JointVector::Constant(5, NAN), q}),
+            "waypoint 1 of 2: the plugin's answer is not finite");
 }
 
 TEST_F(SelectHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered) {

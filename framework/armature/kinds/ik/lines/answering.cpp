@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <limits>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "armature/config/problems.hpp"
@@ -197,7 +198,8 @@ Json ik_json(const RobotModel& robot, const IkSolver& solver, const JointVector&
     answer[ik_lines::last_redundancy_key(is_length)] = *state.last_redundancy;
   }
   answer["solutions"] = Json::array();
-  const bool redundant = robot.dof() > 6;
+  const int taken = std::holds_alternative<Direction>(goal.pose.orientation) ? 5 : 6;
+  const bool redundant = robot.dof() > taken;
   for (const IkBranch& branch : branches) {
     const bool has_one = goal.redundancy || (redundant && solver.redundancy_of(branch.q));
     answer["solutions"].push_back(

@@ -217,6 +217,27 @@ TEST(IkLines, WhatASolverRemembersComesBackEvenWhenItIsWhatItWas) {
   EXPECT_EQ(json::parse(answer)["last_redundancy_rad"], 0.1);
 }
 
+TEST(IkLines, TheRedundancyIsToldWhereTheGoalLeavesOneToTheSolver) {
+  class Needle final : public IkSolver {
+   public:
+    IkStatus solve(const IkGoal&, const JointVector& seed, IkBranches& out,
+                   IkState&) const override {
+      out.clear();
+      out.add() = {.label = "only", .q = seed, .redundancy = 0.25};
+      return {};
+    }
+    std::optional<double> redundancy_of(const JointVector& q) const override { return q[5]; }
+    bool redundancy_is_length() const override { return true; }
+  };
+  const RobotModel arm = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
+  const auto solution = [&](const std::string& orientation) {
+    const std::string line = R"({"position_m":[1,0,0.5],)" + orientation + "}";
+    return json::parse(answer_ik(arm, Needle{}, resting_position(arm), line))["solutions"][0];
+  };
+  EXPECT_EQ(solution(R"("direction":[1,0,0])")["redundancy_m"], 0.25);
+  EXPECT_FALSE(solution(R"("quaternion_xyzw":[0,0,0,1])").contains("redundancy_m"));
+}
+
 TEST(IkLines, AnIdComesBackWhateverBecameOfTheQuestion) {
   const Parrot solver;
   const JointVector home = JointVector::Zero(lamp().dof());

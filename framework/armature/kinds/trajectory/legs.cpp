@@ -10,7 +10,7 @@ namespace armature {
 namespace {
 
 constexpr double kNearest_s = 1e-6;   // waypoints nearer in s than this are one
-constexpr double kStartGap = 1e-6;    // [rad] or [m] between from.q and the first waypoint
+constexpr double kStartGap = 1e-7;    // [rad] or [m] where segments meet, as trajectory_defect
 constexpr double kBriefest_s = 1e-6;  // that a segment may be told to last
 constexpr double kLeastLimit = 1e-9;  // [rad/s] or [m/s], and of accelerations and jerks
 constexpr int kStraightParts = 8;     // of a straight line that runs on through a via

@@ -64,6 +64,12 @@ TEST(Legs, OfASegmentWhosePlacesDoNotGoFromZeroToOneAreRefused) {
             "segment 1 has waypoints whose s does not ascend");
 }
 
+TEST(Legs, OfSegmentsThatDoNotMeetAreRefusedAsTheCheckOfTrajectoriesWould) {
+  EXPECT_EQ(defect_when([](auto& segment) { segment.q[0][1] = 0.9e-7; }), "");
+  EXPECT_EQ(defect_when([](auto& segment) { segment.q[0][1] = 5e-7; }),
+            "segment 1 starts 5e-07 away from where it should");
+}
+
 TEST(Legs, OfASegmentThatLastsNoTimeOrForEverAreRefused) {
   EXPECT_EQ(defect_when([](auto& segment) { segment.duration_s = 0; }), "segment 1 lasts no time");
   EXPECT_EQ(defect_when([](auto& segment) { segment.duration_s = kNoLimit; }),

@@ -192,6 +192,13 @@ TEST(LampStructure, TheFirstMismatchIsNamed) {
             "not a lamp arm: its tool must be the frame of joint 'j6'");
 }
 
+TEST(LampStructure, ALockedJointIsRefused) {
+  RobotParts parts = lamp()->parts();
+  parts.joints[4].locked = true;
+  EXPECT_EQ(LampGeometric::make(RobotModel{parts}, Params{}).error().text,
+            "not a lamp arm: joint 'j5' is locked");
+}
+
 TEST(LampGeometricRandom, EveryPoseHasAnEvenNumberOfBranches) {
   const auto model = another_lamp();
   SCOPED_TRACE("seed 7");

@@ -24,6 +24,7 @@ std::string joint_mismatch(const Joint& joint, std::size_t i) {
   };
   if (joint.type != Joint::Type::revolute)
     return fmt::format("joint '{}' is not revolute", joint.name);
+  if (joint.locked) return fmt::format("joint '{}' is locked", joint.name);
   if (joint.placement) return fmt::format("joint '{}' is placed beside its row", joint.name);
   if (std::abs(joint.alpha - kTwistDeg[i] * kRadPerDegree) > kSame) {
     return must("alpha_deg", kTwistDeg[i], joint.alpha / kRadPerDegree);

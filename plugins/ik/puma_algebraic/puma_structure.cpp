@@ -56,6 +56,7 @@ std::string link_mismatch(const Link& link, std::size_t i) {
 /// Why joint `i` (from 0) is not the pattern's, as "joint 'j3'" + "..."; empty when it is.
 std::string joint_mismatch(const Joint& joint, std::size_t i) {
   if (joint.coupling) return " is coupled";
+  if (joint.locked) return " is locked";
   // The first one's is where the arm stands.
   if (i > 0 && joint.placement) return " is placed beside its row";
   if (i < 5 && joint.type != Joint::Type::revolute) return " is not revolute";

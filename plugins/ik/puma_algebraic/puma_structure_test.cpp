@@ -116,6 +116,13 @@ TEST_F(PumaStructure, TheFirstMismatchIsNamed) {
             "joint 'j6', the needle, has no limits");
 }
 
+TEST_F(PumaStructure, ALockedJointIsRefused) {
+  RobotParts parts = sr1()->parts();
+  parts.joints[4].locked = true;
+  EXPECT_EQ(puma_arm(RobotModel{parts}).error().text,
+            "not a PUMA-pattern arm: joint 'j5' is locked");
+}
+
 TEST_F(PumaStructure, AToolThatDoesNotHangOnTheLastJointIsRefused) {
   const RobotModel model{{"arm",
                           sr1()->convention(),

@@ -31,6 +31,7 @@ std::string joint_mismatch(const Joint& joint, std::size_t i) {
     return fmt::format("joint '{}' must be {}", joint.name, slides ? "revolute" : "prismatic");
   }
   if (joint.coupling) return fmt::format("joint '{}' is coupled", joint.name);
+  if (joint.locked) return fmt::format("joint '{}' is locked", joint.name);
   if (joint.placement) return fmt::format("joint '{}' is placed beside its row", joint.name);
   if (std::abs(joint.a) > kSame) return must_be_zero("a_m", joint.a);
   if (!slides && std::abs(joint.d) > kSame) return must_be_zero("d_m", joint.d);

@@ -93,6 +93,14 @@ TEST_F(RrpZyzTest, BranchesBeyondTheLimitsAreGivenAndMarked) {
   for (const IkBranch& branch : found_) EXPECT_FALSE(branch.within_limits);
 }
 
+TEST(RrpStructure, ALockedJointIsRefused) {
+  RobotParts parts = master()->parts();
+  parts.joints[4].locked = true;
+  parts.home = JointVector::Zero(6);
+  EXPECT_EQ(RrpZyz::make(RobotModel{parts}, Params{}).error().text,
+            "not a polar arm with a ZYZ wrist: joint 'j5' is locked");
+}
+
 /// Why the solver refuses the master with some rows changed.
 template <class Change>
 std::string refusal(Change change) {

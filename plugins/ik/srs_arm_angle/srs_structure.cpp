@@ -53,6 +53,7 @@ std::string link_mismatch(const Link& link) {
 /// Why joint `i` (from 0) is not the pattern's; empty when it is.
 std::string joint_mismatch(const Joint& joint, std::size_t i) {
   if (joint.coupling) return fmt::format("joint '{}' is coupled", joint.name);
+  if (joint.locked) return fmt::format("joint '{}' is locked", joint.name);
   if (i > 0 && joint.placement)  // the first one's is where the arm stands
     return fmt::format("joint '{}' is placed beside its row", joint.name);
   if (joint.type != Joint::Type::revolute)

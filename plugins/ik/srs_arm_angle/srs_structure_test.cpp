@@ -100,6 +100,13 @@ TEST(SrsStructure, TheFirstMismatchIsNamed) {
             begin + "7 joints needed, 'arm' has 8");
 }
 
+TEST(SrsStructure, ALockedJointIsRefused) {
+  RobotParts parts = med7()->parts();
+  parts.joints[2].locked = true;
+  parts.home = JointVector::Zero(7);
+  EXPECT_EQ(srs_arm(RobotModel{parts}).error().text, "not an S-R-S arm: joint 'j3' is locked");
+}
+
 TEST(SrsStructure, AToolElsewhereOrAPointingAxisIsRefused) {
   const auto refused = [](int parent, std::optional<Eigen::Vector3d> axis) {
     const RobotModel other{{"other",

@@ -115,6 +115,8 @@ LawReport check_law(const Law<Subject>& law, const Subject& subject) {
     law.check(subject, check);
   } catch (const std::exception& error) {
     check.violated("it throws: " + std::string{error.what()});
+  } catch (...) {
+    check.violated("it throws what is no std::exception");
   }
   return check.report();
 }

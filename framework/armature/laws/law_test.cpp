@@ -83,6 +83,8 @@ TEST(CheckLaw, AnExceptionOfThePluginBreaksTheLaw) {
   const LawReport report = check_law(law, Nobody{});
   EXPECT_EQ(report.failed, 1);
   EXPECT_EQ(report.violations.at(0).what, "it throws: gone");
+  const Law<Nobody> odd{"Stays", "it stays", [](const Nobody&, LawCheck&) { throw 7; }};
+  EXPECT_EQ(check_law(odd, Nobody{}).violations.at(0).what, "it throws what is no std::exception");
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ LawReport check_law(const IkLaw& law, const IkSubject& subject, const IkLawTools
     law.check(probe);
   } catch (const std::exception& error) {
     probe.violated(fmt::format("the solver throws: {}", error.what()));
+  } catch (...) {
+    probe.violated("the solver throws what is no std::exception");
   }
   return probe.report();
 }

@@ -214,7 +214,7 @@ TEST_F(MotionComponentTest, TheSetpointIsWhereTheReferenceHasTheTool) {
   run(100.1);
   give(goal(1, {2, 0, 0}));
   run(100.3);
-  const auto joints = motion_.take<msg::JointState>("servo_jp");
+  const std::vector<msg::JointState>& joints = servo_;
   const auto poses = motion_.take<msg::PoseStamped>("setpoint_cp");
   ASSERT_EQ(poses.size(), joints.size());
   EXPECT_GT(

@@ -29,6 +29,12 @@ double shortest_stop(const Quintic::End& from, double limit) {
   return std::max(std::abs(from.v) / w, kShortestStop_s);
 }
 
+/// Whether the quartic of T turns the joint round on its way: with u = t / T its velocity is
+/// (1 - u)^2 (v + (2 v + a T) u).
+bool comes_back(const Quintic::End& from, double T) {
+  return from.v * from.a * T < -3 * from.v * from.v;
+}
+
 /// One joint's stop and how long it takes.
 struct Stop {
   Quintic quartic;
@@ -54,7 +60,7 @@ ShortTrajectory short_stop_from(const JointState& from, const JointVector& max_v
   for (int j = 0; j < dof; ++j) {
     Stop stop{stop_quartic(end_of(j), slowest), slowest};
     const double allowed = std::max(max_velocity[j], std::abs(from.v[j])) * (1 + 1e-9);
-    if (peaks(stop.quartic, slowest).velocity > allowed) {
+    if (comes_back(end_of(j), slowest) || peaks(stop.quartic, slowest).velocity > allowed) {
       stop.duration = shortest_stop(end_of(j), max_acceleration[j]);
       stop.quartic = stop_quartic(end_of(j), stop.duration);
     }

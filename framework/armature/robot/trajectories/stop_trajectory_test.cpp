@@ -114,6 +114,36 @@ TEST(Stop, LetsAJointStopSoonerThatWouldOtherwisePassItsVelocityLimit) {
   EXPECT_NEAR(limit_use(trajectory, kVelocity, kAcceleration).acceleration, 1, 1e-9);
 }
 
+TEST(Stop, TakesNoJointBackThatBrakesWhileOthersStillMove) {
+  const JointState from{joint_vector({0, 0, 0}), joint_vector({0.1, 0, 0.5}),
+                        joint_vector({-8, 0, 0})};
+  const Trajectory trajectory = stop(from);
+  EXPECT_NEAR(trajectory.duration_s(), 0.75, 1e-12);
+  EXPECT_GT(trajectory.at(trajectory.end()).q[0], 0);
+  EXPECT_LT(trajectory.knots[1], 0.03) << "its own stop";
+}
+
+TEST(Stop, KeepsTheDirectionOfEveryJointWithinTheLimits) {
+  constexpr double kShortest_s = 0.01;
+  std::mt19937 random{54};
+  for (int n = 0; n < 5000; ++n) {
+    const JointState from = random_state(random);
+    SCOPED_TRACE(::testing::Message()
+                 << "seed 54, v " << from.v.transpose() << ", a " << from.a.transpose());
+    const Trajectory trajectory = stop(from);
+    const LimitUse use = limit_use(trajectory, kVelocity, kAcceleration);
+    ASSERT_LE(use.acceleration, 1 + 1e-9);
+    for (int i = 0; i <= 200; ++i) {
+      const JointVector v = trajectory.at(kStopFrom + seconds(trajectory.duration_s() * i / 200)).v;
+      for (int j = 0; j < 3; ++j) {
+        // In the shortest stop of all it comes back by less than |a| T^2 / 12.
+        if (3 * std::abs(from.v[j]) < kShortest_s * std::abs(from.a[j])) continue;
+        ASSERT_GE(v[j] * std::copysign(1.0, from.v[j]), -1e-12) << "joint " << j;
+      }
+    }
+  }
+}
+
 TEST(Stop, AtRestIsAHold) {
   const JointVector zero = JointVector::Zero(3);
   const Trajectory trajectory = stop({joint_vector({1, 2, 3}), zero, zero});

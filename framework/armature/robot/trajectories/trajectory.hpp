@@ -88,8 +88,8 @@ Trajectory spliced(const Trajectory& trajectory, const JointState& from, double 
 /// The end position is free, which makes the quintics quartics (least peak acceleration). All
 /// joints stop in the time of the slowest, so that the arm leaves its path along the tangent. An
 /// acceleration that still pushes a joint forward takes its velocity up first, by at most
-/// 4/27 |a| T; a joint that this would take beyond max_velocity stops in its own shortest time
-/// instead, which keeps the rise as small as max_acceleration allows. Should from.a be beyond
+/// 4/27 |a| T. A joint that this would take beyond max_velocity, or that brakes so hard that it
+/// would come back, stops in its own shortest time instead. Should from.a be beyond
 /// max_acceleration already, it is not exceeded further. Nothing stops in less than 10 ms.
 Trajectory stop_from(const JointState& from, const JointVector& max_velocity,
                      const JointVector& max_acceleration, Time start, std::uint64_t goal_id);

@@ -156,6 +156,33 @@ TEST_F(Build, ConfiguresAtFirstAndShowsAllOfItWhenThatFails) {
             "CMake Error: no Eigen\n-- found the compiler\n");
 }
 
+using Armature = Tools;
+
+TEST_F(Armature, StopsCommandsAndWatchesWithWhatIsBuiltThoughTheSourcesAreBroken) {
+  configured("release");
+  stand_in("ninja", "echo 'a.cpp:1:1: error: a word is missing'; exit 1");
+  const fs::path program = root_ / "build/release/bin/armature";
+  fs::create_directories(program.parent_path());
+  std::ofstream{program} << "#!/bin/bash\necho \"told: $*\"\n";
+  fs::permissions(program, fs::perms::owner_all);
+  for (const char* verb : {"stop", "operator", "topic", "top", "log", "monitor", "record"}) {
+    const auto result = run({"armature", verb, "--domain", "3"});
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out, std::string{"told: "} + verb + " --domain 3\n");
+  }
+  EXPECT_EQ(run({"armature", "run", "a.yaml"}).exit_code, 1) << "a run is one of the sources";
+}
+
+TEST_F(Armature, BuildsForAStopWhenNothingIsBuilt) {
+  configured("release");
+  stand_in(
+      "ninja",
+      "mkdir -p bin; printf '#!/bin/bash\\necho stopped\\n' > bin/armature; chmod +x bin/armature");
+  const auto result = run({"armature", "stop"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.out, "stopped\n");
+}
+
 /// What ctest prints of three tests, of which the second `ended`.
 std::string ctest_of(const std::string& ended, int exit_code) {
   return R"(cat <<'END'

@@ -22,6 +22,7 @@
 #include <vector>
 
 #include "armature/runtime/plugins/exit_guard.hpp"
+#include "armature/values/time.hpp"
 
 namespace armature {
 namespace {
@@ -63,9 +64,7 @@ int wait_for(pid_t child) {
 }  // namespace
 
 IsolatedWork::IsolatedWork(double timeout_s, const std::function<std::string()>& work)
-    : timeout_s_{timeout_s},
-      end_{Clock::now() +
-           std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>{timeout_s})} {
+    : timeout_s_{timeout_s}, end_{Clock::now() + seconds(timeout_s)} {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("cannot make a pipe");
   fcntl(ends[0], F_SETFL, O_NONBLOCK);

@@ -138,6 +138,11 @@ TEST_F(Sweep, ARunThatIsNotDoneInTimeIsToldAndTriedAgainTheNextTime) {
   EXPECT_EQ(finished_runs(), 0);
 }
 
+TEST_F(Sweep, ARunMayTakeLongerThanTheClockCanCount) {
+  const auto result = sweep({"--seeds", "1", "--timeout", "1e10", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(result.out).at(0)["statuses"]["ok"], 1) << result.out;
+}
+
 TEST_F(Sweep, WhatIsWrongIsToldBeforeAnythingRuns) {
   EXPECT_THAT(sweep({"--seeds", "3..1"}).err, HasSubstr("goes down"));
   const auto metric = sweep({"--set", "sweep_goals={target_eror_mm: {p95: 1}}"});

@@ -22,6 +22,7 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/task/procedure.hpp"
 #include "armature/values/json_text.hpp"
+#include "armature/values/time.hpp"
 #include "exit_code.hpp"
 #include "operator/procedure_view.hpp"
 #include "operator/shown_question.hpp"
@@ -188,8 +189,7 @@ class Dialogue {
 
   template <class Done>
   bool wait(const Done& done) {
-    const auto give_up = Steady::now() + std::chrono::duration_cast<Steady::duration>(
-                                             std::chrono::duration<double>{options_.timeout_s});
+    const auto give_up = Steady::now() + seconds(options_.timeout_s);
     while (!g_left && Steady::now() < give_up) {
       link_.look();
       if (done()) return true;

@@ -16,6 +16,7 @@
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/runtime/processes/running_processes.hpp"
+#include "armature/values/time.hpp"
 #include "exit_code.hpp"
 #include "standard_output.hpp"
 
@@ -65,9 +66,7 @@ class Stopping {
   RemoteWriter& writer_;
   SamplePool& pool_;
   const SystemClock& clock_;
-  Steady::time_point give_up_ =
-      Steady::now() + std::chrono::duration_cast<Steady::duration>(
-                          std::chrono::duration<double>{options_.timeout_s});
+  Steady::time_point give_up_ = Steady::now() + seconds(options_.timeout_s);
   std::map<std::string, bool> heard_by_;
 };
 

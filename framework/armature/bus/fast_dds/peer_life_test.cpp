@@ -47,7 +47,7 @@ TEST_F(FastDds, AReaderThatIsHaltedIsKnownByNameAndAcknowledgesNothingUntilItGoe
   writer->offer(sample(2));
   EXPECT_FALSE(writer->acknowledged(seconds(0.3)));
   kill(peer.pid(), SIGCONT);
-  EXPECT_TRUE(writer->acknowledged(seconds(10)));
+  EXPECT_TRUE(writer->acknowledged(seconds(1e10))) << "longer than DDS can count";
 }
 
 }  // namespace

@@ -77,6 +77,30 @@ TEST_F(Sweep, WritesATableAndHistogramsAndGoesOnWhereItStopped) {
   EXPECT_THAT(changed.err, testing::Not(HasSubstr("already"))) << "another file is another run";
 }
 
+TEST_F(Sweep, RunsAgainWhatReadsAFileThatHasChanged) {
+  fs::create_directories(folder_);
+  const fs::path path = folder_ / "knife.csv";
+  const auto plan = [&](double depth_m) {
+    std::ofstream file{path};
+    file << "t,x,y,z,qx,qy,qz,qw\n0,0,0,0,0,0,0,1\n5,0.01,0," << depth_m << ",0,0,0,1\n";
+  };
+  const std::vector<std::string> command{armature(),
+                                         "sweep",
+                                         source_file("configs/master_manipulator.yaml"),
+                                         "--seeds",
+                                         "1",
+                                         "--set",
+                                         "components.surgeon.params.path=" + path.string(),
+                                         "--out",
+                                         folder_ / "out"};
+  const auto run = [&] { return run_command(command, {}, std::chrono::seconds{120}); };
+  plan(0.01);
+  EXPECT_THAT(run().err, testing::Not(HasSubstr("already")));
+  EXPECT_THAT(run().err, HasSubstr("1 of 1 runs are in "));
+  plan(0.012);
+  EXPECT_THAT(run().err, testing::Not(HasSubstr("already"))) << "other data is another run";
+}
+
 TEST_F(Sweep, ThatIsInterruptedKeepsWhatHasFinished) {
   Command running{command({"--seeds", "1..100000", "--out", folder_})};
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{30};

@@ -12,7 +12,8 @@ namespace armature::sweep {
 
 /// One run of a sweep, and what makes it another one than the rest.
 struct RunKey {
-  std::string fingerprint;  // of the files with this variation, whatever the seed, and the build
+  std::string fingerprint;  // of the files with this variation, whatever the seed, of the data and
+                            // the build
   std::uint64_t seed = 0;
   auto operator<=>(const RunKey&) const = default;
 };

@@ -37,25 +37,13 @@ struct Combination {
   std::vector<std::string> variation;
   DeploymentSource source;
   DeploymentConfig config;  // with seed 0, for what does not depend on it
+  std::string name;         // of its runs, whatever the seed
 };
 
 struct Job {
   const Combination* combination;
   RunKey key;
 };
-
-std::vector<Combination> combinations_of(const SweepOptions& options,
-                                         const PluginRegistry& plugins) {
-  std::vector<Combination> all;
-  for (const std::vector<std::string>& variation : sweep::combinations(options.vary)) {
-    DeploymentSource source = options.source;
-    source.assignments.insert(source.assignments.end(), variation.begin(), variation.end());
-    DeploymentSource without_seed = source;
-    without_seed.assignments.push_back("seed=0");
-    all.push_back({variation, std::move(source), read_for_lockstep(without_seed, plugins)});
-  }
-  return all;
-}
 
 std::string run_once(const Job& job, PluginRegistry& plugins) {
   DeploymentSource source = job.combination->source;
@@ -112,6 +100,13 @@ void check(const std::vector<Combination>& combinations, bool is_pooled) {
   }
 }
 
+/// A file as it is now, but for its place.
+std::string state_of(const fs::path& file) {
+  std::error_code none;
+  return fmt::format("{} {} {}\n", file.filename().string(), fs::file_size(file, none),
+                     fs::last_write_time(file, none).time_since_epoch().count());
+}
+
 /// Names the build by its programs and libraries: what another one told is not this one's.
 std::string build_of(const PluginRegistry& plugins) {
   std::set<fs::path> files{"/proc/self/exe"};
@@ -124,12 +119,54 @@ std::string build_of(const PluginRegistry& plugins) {
   }
   for (const PluginManifest& plugin : plugins.plugins()) files.insert(plugin.file);
   std::string text;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : files) text += state_of(file);
+  return text;
+}
+
+/// The files that parameters name, and what lies in folders that they name: of those the
+/// fingerprint has the names only.
+std::string data_of(const Params& params, const PluginManifest& plugin) {
+  std::string text;
+  for (const ParamSpec& spec : plugin.params) {
+    if (spec.type != ParamSpec::Type::file) continue;
+    const std::string named = params.file(spec.name);
+    if (named.empty()) continue;
+    std::set<fs::path> files{named};
     std::error_code none;
-    text += fmt::format("{} {} {}\n", file.filename().string(), fs::file_size(file, none),
-                        fs::last_write_time(file, none).time_since_epoch().count());
+    for (const auto& entry : fs::directory_iterator{named, none}) files.insert(entry.path());
+    for (const fs::path& file : files) text += state_of(file);
   }
-  return fmt::format("{:016x}", std::hash<std::string>{}(text));
+  return text;
+}
+
+std::string data_of(const DeploymentConfig& config) {
+  std::string text;
+  for (const ComponentConfig& component : config.components) {
+    text += data_of(component.params, *component.manifest);
+    for (const SlotConfig& slot : component.slots) text += data_of(slot.params, *slot.manifest);
+  }
+  return text;
+}
+
+/// Names all that a combination's runs come from, but for their seeds.
+std::string name_of(const DeploymentConfig& config, const std::string& build) {
+  const std::size_t others = std::hash<std::string>{}(build + data_of(config));
+  return fmt::format("{}/{:016x}", config.fingerprint, others);
+}
+
+std::vector<Combination> combinations_of(const SweepOptions& options,
+                                         const PluginRegistry& plugins) {
+  const std::string build = build_of(plugins);
+  std::vector<Combination> all;
+  for (const std::vector<std::string>& variation : sweep::combinations(options.vary)) {
+    DeploymentSource source = options.source;
+    source.assignments.insert(source.assignments.end(), variation.begin(), variation.end());
+    DeploymentSource without_seed = source;
+    without_seed.assignments.push_back("seed=0");
+    all.push_back({variation, std::move(source), read_for_lockstep(without_seed, plugins), ""});
+    all.back().name = name_of(all.back().config, build);
+  }
+  return all;
 }
 
 }  // namespace
@@ -144,9 +181,8 @@ int sweep_deployment(const SweepOptions& options) {
       })) {
     fmt::print(stderr, "armature: 'record:' is left out, a sweep records none of its runs\n");
   }
-  const std::string build = build_of(plugins);
-  const auto key_of = [&](const Combination& combination, std::uint64_t seed) {
-    return RunKey{combination.config.fingerprint + '/' + build, seed};
+  const auto key_of = [](const Combination& combination, std::uint64_t seed) {
+    return RunKey{combination.name, seed};
   };
   if (options.out) prepare_output_folder(*options.out);
   sweep::FinishedRuns finished{options.out ? std::optional{*options.out / "runs.jsonl"}

@@ -2,9 +2,12 @@
 // `armature run` for a script: one JSON object whatever happens, and every file or a reason.
 #include <gmock/gmock.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "armature/values/file_content.hpp"
 #include "armature/values/temporary_folder.hpp"
@@ -84,6 +87,49 @@ TEST_F(RunForAScript, TheReportIsWhatIsPrinted) {
   const auto result = run({"--report", folder_.path()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(report(), result.out);
+}
+
+TEST_F(RunForAScript, TwoRunsNeverWriteIntoOneReportFolder) {
+  const std::vector<std::string> words{"--keep-running", "--set", "clock=system", "--report",
+                                       folder_.path()};
+  std::vector<std::string> first{armature(), "run", source_file("configs/sr1_biopsy.yaml"),
+                                 "--domain", std::to_string(domain_)};
+  first.insert(first.end(), words.begin(), words.end());
+  Command running{first};
+  ASSERT_TRUE(running.wait_for_err("task      approach", std::chrono::seconds{30}))
+      << running.err();
+  std::vector<std::string> other = words;
+  other.insert(other.end(), {"--set", "name=another"});
+  for (const auto& second : {words, other}) {
+    const auto refused = run(second);
+    EXPECT_EQ(refused.exit_code, 1);
+    EXPECT_THAT(refused.err, testing::HasSubstr("another run writes its report into '" +
+                                                folder_.path().string() + "' (pid " +
+                                                std::to_string(running.pid()) + ")"));
+    EXPECT_FALSE(fs::exists(folder_ / "report.json")) << report();
+  }
+  running.signal(SIGINT);
+  const auto result = running.finish(std::chrono::seconds{30});
+  EXPECT_THAT(result.err, testing::Not(testing::HasSubstr("removed")));
+  EXPECT_TRUE(fs::exists(folder_ / "run.mcap"));
+  EXPECT_TRUE(fs::exists(folder_ / "report.html")) << result.err;
+}
+
+TEST_F(RunForAScript, ARecordingThatAnotherProgramWritesIntoTheReportFolderStays) {
+  Command recorder{
+      {armature(), "record", "-o", folder_ / "run.mcap", "--domain", std::to_string(domain_)}};
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds{30};
+  const auto is_begun = [&] {
+    std::error_code none;
+    return fs::file_size(folder_ / "run.mcap", none) > 0 && !none;
+  };
+  while (!is_begun() && std::chrono::steady_clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{20});
+  }
+  const auto refused = run({"--report", folder_.path()});
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_THAT(refused.err, testing::HasSubstr("is being written by another program"));
+  EXPECT_TRUE(fs::exists(folder_ / "run.mcap"));
 }
 
 TEST_F(RunForAScript, FilesOfAnOlderRunGoFromTheFolderAndThoseOfOthersStay) {

@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "armature/config/document.hpp"
 #include "armature/config/source_text.hpp"
@@ -24,6 +25,7 @@
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/processes/arm_ownership.hpp"
 #include "armature/runtime/processes/child_processes.hpp"
+#include "armature/runtime/processes/instance_lock.hpp"
 #include "armature/runtime/reporting/output_folder.hpp"
 #include "armature/runtime/reporting/run_report.hpp"
 #include "colour.hpp"
@@ -44,10 +46,17 @@
 namespace armature {
 namespace {
 
-/// Makes the folder of the report. What an older run left there is not this one's, however this one
-/// ends.
-void begin_report(const std::filesystem::path& folder) {
+/// Makes the folder of the report, which is this run's as long as the lock is held. What an older
+/// run left there is not this one's, however this one ends.
+InstanceLock begin_report(const std::filesystem::path& folder) {
   prepare_output_folder(folder);
+  auto lock = InstanceLock::take("report " + std::filesystem::canonical(folder).string());
+  if (!lock) {
+    throw std::runtime_error{
+        fmt::format("another run writes its report into '{}' ({}); stop it, or give this one "
+                    "another folder",
+                    folder.string(), lock.error().text)};
+  }
   for (const std::string& name : remove_listed_files(folder)) {
     fmt::print(
         stderr, "{} {} is of an older run into this folder; it stays, as it was changed since\n",
@@ -56,6 +65,7 @@ void begin_report(const std::filesystem::path& folder) {
   remove_older(report_file(folder));
   remove_older(page_file(folder));
   end_signals::allow_report();
+  return std::move(*lock);
 }
 
 /// Of a run that did not begin.
@@ -271,7 +281,8 @@ int run(RunOptions options) {
   // Another process of a deployment just ends: its main process tells, and asks it for no JSON.
   if (!is_child || options.json) end_signals::end_before_start();
   if (is_child && options.control >= 0) prctl(PR_SET_PDEATHSIG, SIGKILL);  // until it can listen
-  if (options.report && !is_child) begin_report(*options.report);
+  std::optional<InstanceLock> report_lock;
+  if (options.report) report_lock.emplace(begin_report(*options.report));
   PluginRegistry plugins;
   if (!is_child) tell_warnings(plugins);
   std::vector<std::string> notes;
@@ -292,7 +303,8 @@ int run(RunOptions options) {
     if (options.json) print_out("{}", ending(code == kOk ? "ok" : "fault", ""));
     return code;
   }
-  if (options.report && !is_child) {
+  const std::vector<InstanceLock> locks = own_arms(config, process.name, process.domain);
+  if (options.report) {
     add_joint_reports(config, plugins, *options.report);
     if (!config.record) record_for_page(config, options);
   }
@@ -307,7 +319,6 @@ int run(RunOptions options) {
     injected = InjectedFault::read(*options.inject, config);
     InjectedFault::listen();
   }
-  const std::vector<InstanceLock> locks = own_arms(config, process.name, process.domain);
   Console console;
   std::optional<ChildWatch> child_watch;
   if (is_child) child_watch.emplace(console, options.control);

@@ -154,7 +154,9 @@ void record_for_page(DeploymentConfig& config, RunOptions& options) {
   options.records_for_page = true;
   config.record = RecordConfig{.file = file, .thin = true, .origin = {}};
   for (const std::string& process : config.processes()) {
-    remove_older(config.record->file_of(process, Time{}));
+    const std::filesystem::path older = config.record->file_of(process, Time{});
+    const HeldFile held = hold_to_replace(older, true);  // `armature record` may be writing it
+    remove_older(older);
   }
   const nlohmann::json record{{"file", file}, {"thin", true}};
   options.source.assignments.push_back("record=" + json_text(record));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // `armature run` for a script: one JSON object whatever happens, and every file or a reason.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -87,6 +88,17 @@ TEST_F(RunForAScript, TheReportIsWhatIsPrinted) {
   const auto result = run({"--report", folder_.path()});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(report(), result.out);
+}
+
+TEST_F(RunForAScript, AProcessorThatThisMachineLacksIsRefusedWhereAThreadIsToStayOnIt) {
+  const auto simulated = run({"--set", "executors.control.cpu=1023"});
+  EXPECT_EQ(simulated.exit_code, 0) << simulated.err;
+  const auto result = run({"--set", "executors.control.cpu=1023", "--set", "clock=system"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(
+      result.out,
+      R"({"status":"not_started","reason":"executor 'control': 'cpu' is 1023, this machine has 0 to )" +
+          std::to_string(sysconf(_SC_NPROCESSORS_CONF) - 1) + "\"}\n");
 }
 
 TEST_F(RunForAScript, TwoRunsNeverWriteIntoOneReportFolder) {

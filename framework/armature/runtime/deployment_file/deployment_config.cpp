@@ -2,7 +2,6 @@
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -107,14 +106,6 @@ std::map<std::string, Node> read_documents(std::string_view name,
   return documents;
 }
 
-int read_cpu(MapReader& map, std::int64_t cpu) {
-  const std::int64_t count = sysconf(_SC_NPROCESSORS_CONF);
-  if (cpu >= count) {
-    map.problem("cpu", fmt::format("'cpu' is {}, this machine has 0 to {}", cpu, count - 1));
-  }
-  return static_cast<int>(cpu);
-}
-
 std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, Problems& problems) {
   std::vector<ExecutorSpec> executors;
   for (const auto& [name, name_origin, value] : section) {
@@ -122,7 +113,7 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
     ExecutorSpec spec{.name = name, .period = {}, .priority = 0};
     if (const auto period = map.optional_number("period_s")) spec.period = seconds(*period);
     spec.priority = static_cast<int>(map.integer("priority"));
-    if (const auto cpu = map.optional_integer("cpu")) spec.cpu = read_cpu(map, *cpu);
+    if (const auto cpu = map.optional_integer("cpu")) spec.cpu = static_cast<int>(*cpu);
     spec.lock_memory = map.flag("lock_memory");
     map.finish();
     executors.push_back(std::move(spec));

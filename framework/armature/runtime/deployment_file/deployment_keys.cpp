@@ -2,6 +2,7 @@
 #include "armature/runtime/deployment_file/deployment_keys.hpp"
 
 #include <fmt/format.h>
+#include <sched.h>
 
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 
@@ -150,6 +151,7 @@ const std::vector<KeySpec>& executor_keys() {
        .type = Type::integer,
        .doc = "The one that it runs on.",
        .min = 0,
+       .max = CPU_SETSIZE - 1,
        .optional = true},
       {.name = "lock_memory",
        .type = Type::flag,

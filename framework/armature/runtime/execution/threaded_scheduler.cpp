@@ -1,16 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/runtime/execution/threaded_scheduler.hpp"
 
+#include <fmt/format.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <chrono>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 #include <vector>
 
 namespace armature {
+namespace {
+
+/// A deployment may be read, checked and replayed on any machine.
+void check_cpu(const ExecutorSpec& executor) {
+  const long count = sysconf(_SC_NPROCESSORS_CONF);
+  if (!executor.cpu || *executor.cpu < count) return;
+  throw std::runtime_error{fmt::format("executor '{}': 'cpu' is {}, this machine has 0 to {}",
+                                       executor.name, *executor.cpu, count - 1)};
+}
+
+}  // namespace
 
 void ThreadedScheduler::assign(const ExecutorSpec& executor,
                                const std::vector<ComponentRunner*>& runners) {
+  check_cpu(executor);
   Executor& thread = executors_.emplace_back(executor, *clock_);
   for (ComponentRunner* runner : runners) thread.assign(*runner);
 }

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -177,11 +178,11 @@ TEST_F(OperatorTest, TypesHisWords) {
       << "the end of the input ends the dialogue, not the run";
 }
 
-TEST_F(OperatorTest, IsHeardWhereTheLastLineOfAFileHasNoEnd) {
+TEST_F(OperatorTest, IsHeardWhereTheLastLineOfAFileHasNoEndAndBlanksStandAroundItsWord) {
   Command run{operated_biopsy(), {}};
   ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
   const CommandResult dialogue =
-      run_command(biopsy("operator"), {.environment = {}, .input = "abort"}, kAtMost);
+      run_command(biopsy("operator"), {.environment = {}, .input = " abort\r"}, kAtMost);
   EXPECT_EQ(dialogue.exit_code, 0) << dialogue.err;
   EXPECT_TRUE(run.wait_for_err("the operator says abort", kAtMost)) << run.err();
   EXPECT_EQ(run.finish(kAtMost).exit_code, 1) << "it was broken off";
@@ -216,6 +217,22 @@ TEST_F(OperatorTest, WhereNothingRunsHeIsToldSo) {
   EXPECT_EQ(result.exit_code, kTimedOut);
   EXPECT_THAT(result.err,
               HasSubstr("no task of 'sr1_biopsy' tells what it does in domain " + domain_));
+}
+
+TEST_F(OperatorTest, WhoIsInterruptedBeforeHisWordWasSaidIsToldSo) {
+  std::vector<std::string> command = biopsy("operator");
+  command.insert(command.end(), {"--timeout", "20"});
+  std::vector<std::string> with_word = command;
+  with_word.insert(with_word.end(), {"--say", "abort"});
+  Command one_word{with_word}, script{command, {.environment = {}, .input = "abort\n"}};
+  std::this_thread::sleep_for(std::chrono::seconds{2});  // they look for the task
+  one_word.signal(SIGTERM);
+  script.signal(SIGTERM);
+  const CommandResult of_word = one_word.finish(kAtMost), of_script = script.finish(kAtMost);
+  EXPECT_EQ(of_word.exit_code, kRefused);
+  EXPECT_EQ(of_word.err, "armature: interrupted before 'abort' was said\n");
+  EXPECT_EQ(of_script.exit_code, kRefused);
+  EXPECT_EQ(of_script.err, "armature: interrupted before a word was said\n");
 }
 
 TEST_F(OperatorTest, AStepThatIsNoTextIsRefusedBeforeAnybodyHearsIt) {

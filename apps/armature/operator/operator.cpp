@@ -13,6 +13,8 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -68,16 +70,24 @@ TaskTopics find_task(const DeploymentConfig& deployment, const std::string& comp
                                   deployment.name, fmt::join(names, ", or ")));
 }
 
+/// A line without the blanks around it; the lines of some files end with a carriage return.
+std::string without_blanks(const std::string& line) {
+  constexpr std::string_view kBlanks = " \t\r";
+  const std::size_t first = line.find_first_not_of(kBlanks);
+  if (first == std::string::npos) return "";
+  return line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
+}
+
 /// One operator at a running task.
 class Dialogue {
  public:
   Dialogue(const OperatorOptions& options, const DeploymentConfig& deployment, TaskLink& link)
       : options_{options}, deployment_{deployment}, link_{link} {}
 
-  /// kOk once the task has told what it does.
+  /// kOk once the task has told what it does, or when the operator at a terminal has left before.
   int meet() {
-    const bool met = wait([&] { return link_.state() || link_.tasks().size() > 1; });
-    if (met || g_left) return kOk;
+    if (wait([&] { return link_.state() || link_.tasks().size() > 1; })) return kOk;
+    if (g_left) return options_.say.empty() && is_terminal_ ? kOk : left_before(options_.say);
     fmt::print(stderr,
                "armature: no task of '{}' tells what it does in domain {} within {:g} s; is it "
                "running? armature run FILE --keep-running\n",
@@ -100,6 +110,11 @@ class Dialogue {
     });
     if (!answered) {
       if (is_ambiguous()) return kFailed;
+      if (g_left && told == Steady::time_point{}) return left_before(word);
+      if (g_left) {
+        fmt::print(stderr, "armature: interrupted before the task answered '{}'\n", word);
+        return kFailed;
+      }
       fmt::print(stderr, "armature: the task did not answer '{}' within {:g} s\n", word,
                  options_.timeout_s);
       return kTimedOut;
@@ -151,15 +166,23 @@ class Dialogue {
       show_if_changed();
       if (link_.tasks().size() > 1 && !std::exchange(told, true)) is_ambiguous();
       if (!read_line(line)) continue;
-      if (line == "q" || ended_) break;
+      if (without_blanks(line) == "q" || ended_) break;
       worst = std::max(worst, answer(line));
     }
     return is_terminal_ ? kOk : worst;
   }
 
  private:
+  /// Whoever waits for the word to have an effect must know that it had none.
+  static int left_before(const std::string& word) {
+    fmt::print(stderr, "armature: interrupted before {} was said\n",
+               word.empty() ? "a word" : "'" + word + "'");
+    return kFailed;
+  }
+
   /// Says a line that was typed; the exit code is the one of --say.
-  int answer(const std::string& line) {
+  int answer(const std::string& typed) {
+    const std::string line = without_blanks(typed);
     if (line.empty()) return kOk;
     const std::string word = word_of(line);
     if (word == "confirm") return confirm();
@@ -250,7 +273,7 @@ int be_operator(const OperatorOptions& options) {
   const TaskTopics topics = find_task(deployment, options.component);
   TaskLink link{plugins, topics, network_of(options, deployment)};
   Dialogue dialogue{options, deployment, link};
-  if (const int code = dialogue.meet(); code != kOk || g_left) return code;
+  if (const int code = dialogue.meet(); code != kOk) return code;
   if (options.say.empty()) return dialogue.listen();
   const auto step = options.say == "confirm" ? dialogue.step_meant(options.step) : options.step;
   if (!step) {

@@ -156,6 +156,20 @@ TEST(Drill, IsRefusedWhereMetalMoves) {
             "deployments whose drivers are all 'simulated: true' in plugin.yaml are drilled\n");
 }
 
+TEST(Drill, IsRefusedWhereADeploymentRuns) {
+  const std::vector<std::string> drilled = drill("configs/sr1_biopsy.yaml", {});
+  Command run{{armature(), "run", source_file("configs/sr1_biopsy.yaml"),
+               source_file("configs/overlays/operated.yaml"), "--domain", drilled[4]}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator", kWithin)) << run.err();
+  const CommandResult result = run_command(drilled, {}, kWithin);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "armature: deployment 'sr1_biopsy' (pid " + std::to_string(run.pid()) +
+                            ") runs in domain " + drilled[4] +
+                            ", and a drill would stop its arms; name another domain with "
+                            "--domain, or none\n");
+  EXPECT_THAT(run.err(), testing::Not(HasSubstr("stopping")));
+}
+
 TEST(Drill, IsRefusedWhereThereIsNoArm) {
   const CommandResult result = run_command(
       drill("tests/faults/runaway.yaml", {"--set", "components.arm.plugin=test/breaker"}),

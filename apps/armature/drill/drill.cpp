@@ -17,6 +17,7 @@
 
 #include "armature/config/problems.hpp"
 #include "armature/runtime/processes/instance_lock.hpp"
+#include "armature/runtime/processes/running_processes.hpp"
 #include "drill/drill_report.hpp"
 #include "drill/trial.hpp"
 #include "exit_code.hpp"
@@ -34,23 +35,39 @@ struct Planned {
   double moment_s;
 };
 
-/// A DDS domain that no other drill uses; in the option's domain it is not asked for.
+/// A DDS domain that no other drill and no deployment of this machine uses; in the option's domain
+/// it is not asked for.
 struct OwnDomain {
   int number;
   std::optional<InstanceLock> lock;
 };
 
+/// A drill stops every arm of its domain, and writes there as a stranger.
+void refuse_if_used(int domain) {
+  const auto running = running_processes(domain);
+  if (running.empty()) return;
+  throw std::runtime_error{fmt::format(
+      "{} runs in domain {}, and a drill would stop its arms; name another domain with --domain, "
+      "or none",
+      running.front().text(), domain)};
+}
+
 OwnDomain own_domain(const std::optional<int>& wanted) {
-  if (wanted) return {.number = *wanted, .lock = {}};
+  if (wanted) {
+    refuse_if_used(*wanted);
+    return {.number = *wanted, .lock = {}};
+  }
   constexpr int kDomains = 100;  // beyond them UDP ports lie where the kernel hands out its own
   std::random_device random;
   const int first = std::uniform_int_distribution{0, kDomains - 1}(random);
   for (int i = 0; i < kDomains; ++i) {
     const int domain = 1 + (first + i) % kDomains;
     auto lock = InstanceLock::take(fmt::format("drill domain {}", domain));
-    if (lock) return {.number = domain, .lock = std::move(*lock)};
+    if (lock && running_processes(domain).empty()) {
+      return {.number = domain, .lock = std::move(*lock)};
+    }
   }
-  throw std::runtime_error("drills use every domain; name one with --domain");
+  throw std::runtime_error("drills and deployments use every domain; name one with --domain");
 }
 
 void check_names(const std::vector<std::string>& wanted) {

@@ -6,6 +6,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
+#include <iostream>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -104,6 +107,8 @@ void hold_standard_streams() {
 
 int main(int argc, char** argv) {
   hold_standard_streams();
+  // Whose parent ignores the ends of children would not be told how its own end.
+  std::signal(SIGCHLD, SIG_DFL);
   std::ios::sync_with_stdio(false);
   return armature::run_command_line(argc, argv);
 }

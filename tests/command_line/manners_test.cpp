@@ -43,6 +43,12 @@ TEST(TheCommandLine, FindsAShippedDeploymentByItsNameFromAnyFolder) {
                                    "'dental_lmp' came with armature; did you mean 'dental_lamp'"));
 }
 
+TEST(TheCommandLine, FindsItsPluginsSoundThoughItsParentIgnoresTheEndsOfChildren) {
+  const auto checked =
+      run_command({"/bin/sh", "-c", "trap '' CHLD; exec \"$0\" check sr1_biopsy", armature()});
+  EXPECT_EQ(checked.exit_code, 0) << checked.err;
+}
+
 TEST(TheCommandLine, TakesNoValueForAFileAndSaysWhereItGoes) {
   const auto result =
       run_command({armature(), "check", "dental_lamp", "--set", "clock=simulated", "seed=3"});

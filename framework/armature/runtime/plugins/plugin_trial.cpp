@@ -42,6 +42,14 @@ std::vector<std::string> environment_of_trial() {
   return variables;
 }
 
+/// Nobody tells a program that ignores the ends of its children, or whose parent did, how they end.
+void hear_of_ends() {
+  struct sigaction now {};
+  if (sigaction(SIGCHLD, nullptr, &now) == 0 && now.sa_handler == SIG_IGN) {
+    std::signal(SIGCHLD, SIG_DFL);
+  }
+}
+
 /// How the child ended; nothing when it took too long and was killed.
 std::optional<int> ending_of(pid_t child, std::chrono::milliseconds limit) {
   constexpr std::chrono::milliseconds kPause{1};
@@ -99,6 +107,7 @@ Expected<void> load_elsewhere(const std::vector<std::filesystem::path>& files,
   plan.own_group().unblock_signals().default_signals();
   std::vector<std::string> command{program, std::to_string(getpid())};
   for (const auto& file : files) command.push_back(file.string());
+  hear_of_ends();
   pid_t child = -1;
   if (const int error = plan.start(program, command, child, environment_of_trial())) {
     return refuse(fmt::format("cannot start {} to try it: {}", program, std::strerror(error)));

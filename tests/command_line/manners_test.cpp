@@ -2,6 +2,9 @@
 // What people expect of any program of the command line.
 #include <gmock/gmock.h>
 
+#include <filesystem>
+
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -41,6 +44,25 @@ TEST(TheCommandLine, FindsAShippedDeploymentByItsNameFromAnyFolder) {
   EXPECT_EQ(wrong.exit_code, 3);
   EXPECT_THAT(wrong.err, HasSubstr("there is no file 'dental_lmp' here, and no deployment "
                                    "'dental_lmp' came with armature; did you mean 'dental_lamp'"));
+}
+
+TEST(TheCommandLine, ANameThatCannotBeLookedUpIsNoFile) {
+  const TemporaryFolder folder;
+  std::filesystem::create_symlink("loop", folder / "loop");
+  for (const std::string& name : {std::string(300, 'a'), std::string{"loop"}}) {
+    const auto wrong =
+        run_command({"/usr/bin/env", "-C", folder.path().string(), armature(), "check", name});
+    EXPECT_EQ(wrong.exit_code, 3) << wrong.err;
+    EXPECT_THAT(wrong.err, HasSubstr("there is no file '" + name + "' here"));
+  }
+}
+
+TEST(TheCommandLine, AFolderDoesNotHideTheShippedDeploymentOfItsName) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "dental_lamp");
+  const auto found = run_command(
+      {"/usr/bin/env", "-C", folder.path().string(), armature(), "check", "dental_lamp"});
+  EXPECT_EQ(found.exit_code, 0) << found.err;
 }
 
 TEST(TheCommandLine, FindsItsPluginsSoundThoughItsParentIgnoresTheEndsOfChildren) {

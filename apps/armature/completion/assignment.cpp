@@ -2,6 +2,8 @@
 #include "completion/assignment.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <system_error>
 
 #include "armature/config/document.hpp"
 #include "armature/runtime/deployment_file/deployment_keys.hpp"
@@ -91,7 +93,8 @@ Node tree_of(const DeploymentSource& source) {
   std::vector<std::filesystem::path> files;
   for (const auto& given : source.files) {
     files.emplace_back(deployment_file(given));
-    if (!std::filesystem::is_regular_file(files.back())) return Node::null({});
+    std::error_code none;
+    if (!std::filesystem::is_regular_file(files.back(), none)) return Node::null({});
   }
   return files.empty() ? Node::null({}) : config::load_with_overlays(files, source.assignments);
 }

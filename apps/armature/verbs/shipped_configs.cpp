@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <system_error>
 
 #include "armature/config/problems.hpp"
 #include "exit_code.hpp"
@@ -36,8 +37,10 @@ std::vector<fs::path> shipped_deployments() { return yaml_files(shipped_config_f
 std::vector<fs::path> shipped_robots() { return yaml_files(shipped_config_folder() / "robots"); }
 
 std::string deployment_file(const std::string& given) {
-  const bool is_name = given.find_first_of("./=") == std::string::npos && !fs::exists(given);
-  if (!is_name) return given;
+  std::error_code none;  // a name may be too long for a file, or a link lead to itself
+  const auto there = fs::status(given, none);
+  const bool is_file = fs::exists(there) && !fs::is_directory(there);
+  if (is_file || given.find_first_of("./=") != std::string::npos) return given;
   std::vector<std::string> names;
   for (const fs::path& file : shipped_deployments()) {
     if (file.stem() == given) return file;

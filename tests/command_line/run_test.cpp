@@ -101,6 +101,21 @@ TEST_F(RunForAScript, AProcessorThatThisMachineLacksIsRefusedWhereAThreadIsToSta
           std::to_string(sysconf(_SC_NPROCESSORS_CONF) - 1) + "\"}\n");
 }
 
+TEST_F(RunForAScript, TheMainProcessThatIsStartedByHandJudgesTheGoals) {
+  const auto result = run({"--process", "main", "--set", "goals={target_error_mm: 0.000001}"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(nlohmann::json::parse(result.out)["status"], "goals_missed") << result.out;
+  const auto met = run({"--process", "main"});
+  EXPECT_EQ(met.exit_code, 0) << met.err;
+  EXPECT_TRUE(nlohmann::json::parse(met.out).contains("target_error_mm")) << met.out;
+}
+
+TEST_F(RunForAScript, AReportIsOfTheWholeRunAndNotOfOneProcess) {
+  const auto result = run({"--process", "main", "--report", folder_.path()});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, testing::HasSubstr("--process excludes --report"));
+}
+
 TEST_F(RunForAScript, TwoRunsNeverWriteIntoOneReportFolder) {
   const std::vector<std::string> words{"--keep-running", "--set", "clock=system", "--report",
                                        folder_.path()};

@@ -108,9 +108,9 @@ int conclude(const RunOptions& options, const Deployment& deployment, const RunR
              ReportList& list, Console& console, WatchedEnd& end) {
   const bool printed = result_printed(options, report, console);
   end.result_told();
+  end_signals::result_told();
   const bool written =
       !options.report || report_written(report, deployment, *options.report, list, console);
-  end_signals::result_told();
   return printed && written && report.status() == "ok" ? kOk : kFailed;
 }
 
@@ -138,6 +138,18 @@ std::string fault_of(const Deployment& deployment, const ChildWatch& watch) {
   }
   if (const auto silent = deployment.silent(); !silent.empty()) return silent.front();
   return watch.interruption().value_or("");
+}
+
+/// The main process that was started by hand has the figures of the run, and judges its goals.
+int conclude_main_by_hand(const RunOptions& options, const Deployment& deployment,
+                          const ChildWatch& watch, Console& console, WatchedEnd& end) {
+  RunReport::Ending ending{.faults = {}, .stopped = watch.interruption()};
+  if (options.timing) ending.timing = timing_of(deployment);
+  const RunReport report{deployment, ending};
+  const bool printed = result_printed(options, report, console);
+  end.result_told();
+  end_signals::result_told();
+  return printed && report.status() == "ok" ? kOk : kFailed;
 }
 
 int conclude_child(const RunOptions& options, const Deployment& deployment, ChildWatch& watch,
@@ -241,7 +253,9 @@ int run_other(const RunOptions& options, const Process& process, Deployment& dep
   begin_recording(deployment, process.name, process.origin.start);
   watch.on_clock([&](Duration offset) { deployment.follow_clock(offset); });
   deployment.run(watch);
-  int code = conclude_child(options, deployment, watch, end);
+  int code = process.name == kMainProcess
+                 ? conclude_main_by_hand(options, deployment, watch, console, end)
+                 : conclude_child(options, deployment, watch, end);
   if (!deployment.end_recording()) {
     watch.tell_fault("its recording has no end");
     code = kFailed;

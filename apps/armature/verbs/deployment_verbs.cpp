@@ -57,7 +57,8 @@ void add_run(CLI::App& app, Action& action) {
   verb->add_flag("--keep-running", options->keep_running,
                  "go on when the scenario is over, until Ctrl-C: to watch it");
   verb->add_option("--report", options->report,
-                   "write report.json, the page report.html, tables and pictures into this folder");
+                   "write report.json, the page report.html, tables and pictures into this folder")
+      ->excludes(process);
   add_handed_over(*verb, *options);
   verb->callback([options, &action] { action = [options] { return run_deployment(*options); }; });
 }

@@ -154,6 +154,14 @@ TEST(PluginVerify, EveryKindHasLaws) {
   }
 }
 
+TEST(PluginVerify, ALibraryWhoseWorkAnotherOneDoesOnThisProcessorIsItsPlugin) {
+  const std::string library =
+      std::string{ARMATURE_BINARY_DIR} + "/lib/armature/plugins/detector_hog.so";
+  const auto result = verify(library, {"--json"});
+  EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
+  EXPECT_EQ(json::parse(result.out)["plugin"], "detector/hog");
+}
+
 TEST(PluginVerify, AComponentIsFedSilenceNanAndMessagesByChance) {
   const auto result = verify("arm/simulated", {"--robot", kLamp, "--poses", "50"});
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;

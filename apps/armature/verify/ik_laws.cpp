@@ -12,6 +12,7 @@
 #include "bench/allocations.hpp"
 #include "exit_code.hpp"
 #include "plugin_laws.hpp"
+#include "shell_word.hpp"
 
 namespace armature {
 namespace {
@@ -87,12 +88,12 @@ class IkLawsOfPlugin final : public PluginLaws {
   std::string command_for(const std::string& question) const override {
     if (question.empty()) return "";
     const ArmChoice& arm = verified_.arm;
-    std::string command = fmt::format("echo '{}' | {}armature ik --robot '{}'", question,
-                                      verified_.environment, arm.robot);
-    if (!arm.tip.empty()) command += fmt::format(" --tip '{}'", arm.tip);
-    if (!arm.base.empty()) command += fmt::format(" --base '{}'", arm.base);
+    std::string command = fmt::format("echo {} | {}armature ik --robot {}", shell_word(question),
+                                      verified_.environment, shell_word(arm.robot));
+    if (!arm.tip.empty()) command += " --tip " + shell_word(arm.tip);
+    if (!arm.base.empty()) command += " --base " + shell_word(arm.base);
     const std::string& params = verified_.options.params;
-    if (!params.empty()) command += fmt::format(" --params '{}'", params);
+    if (!params.empty()) command += " --params " + shell_word(params);
     return command + " --plugin " + verified_.id;
   }
 

@@ -6,15 +6,18 @@
 #include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <vector>
 
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/runtime/plugins/processor_level.hpp"
 #include "armature/values/json_text.hpp"
 #include "colour.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 #include "isolated.hpp"
 #include "plugin_laws.hpp"
+#include "shell_word.hpp"
 #include "standard_output.hpp"
 #include "verbs/shipped_configs.hpp"
 
@@ -38,16 +41,22 @@ bool is_same(const fs::path& a, const fs::path& b) {
 
 Choice choose(const std::string& plugin) {
   Choice choice{PluginRegistry::default_search_path(), plugin, ""};
-  if (!fs::is_regular_file(plugin)) return choice;
+  std::error_code none;
+  if (!fs::is_regular_file(plugin, none)) return choice;
   const fs::path file = fs::canonical(plugin);
+  const fs::path of_this_processor = library_for(processor_level(), file);  // which does its work
+  const auto is_meant = [&](const fs::path& found) {
+    return is_same(found, file) || is_same(found, of_this_processor);
+  };
   choice.search_path.insert(choice.search_path.begin(), file.parent_path());
-  choice.environment = fmt::format("ARMATURE_PLUGIN_PATH={} ", file.parent_path().string());
+  choice.environment =
+      fmt::format("ARMATURE_PLUGIN_PATH={} ", shell_word(file.parent_path().string()));
   const PluginRegistry plugins{choice.search_path};
   for (const PluginManifest& found : plugins.plugins()) {
-    if (is_same(found.file, file)) choice.id = found.id;
+    if (is_meant(found.file)) choice.id = found.id;
   }
   for (const auto& [unusable, reason] : plugins.unusable()) {
-    if (is_same(unusable, file)) {
+    if (is_meant(unusable)) {
       throw PluginError(fmt::format("{} cannot be used: {}", plugin, reason));
     }
   }

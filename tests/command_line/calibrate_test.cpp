@@ -327,6 +327,13 @@ TEST_F(Calibrate, NeverWritesOverTheRecording) {
   EXPECT_EQ(content_of(poses), content_of(kTool));
 }
 
+TEST_F(Calibrate, NeverWritesOverTheRobotFile) {
+  const std::string robot = write("arm.yaml", content_of(kMed7));
+  EXPECT_EQ(refusal({"hand-eye", kHandEye, "--robot", robot, "-o", robot}, 3),
+            "armature: -o arm.yaml: that is the robot file; give the result another name\n");
+  EXPECT_EQ(content_of(robot), content_of(kMed7));
+}
+
 TEST_F(Calibrate, ADashIsStandardOutputAndNoFile) {
   const CommandResult dash = calibrate({"tool", kTool, "-o", "-"});
   EXPECT_EQ(dash.exit_code, 0) << dash.err;

@@ -13,6 +13,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "armature/calibration/hand_eye.hpp"
@@ -104,10 +105,12 @@ int deliver(const Json& json, const CalibrationOptions& options, const std::stri
                                        config::to_yaml(to_node(json), false));
   const std::optional<std::string> file = file_of(options);
   if (file) {
-    std::error_code none;
-    if (std::filesystem::equivalent(*file, options.poses, none)) {
+    for (const auto& [read, what] :
+         {std::pair{options.poses, "the recording"}, {options.arm.robot, "the robot file"}}) {
+      std::error_code none;
+      if (!std::filesystem::equivalent(*file, read, none)) continue;
       throw InvalidChoice(
-          fmt::format("-o {}: that is the recording; give the result another name", *file));
+          fmt::format("-o {}: that is {}; give the result another name", *file, what));
     }
     write_atomically(*file, yaml, FileUse::named_by_user);
     fmt::print(stderr, "{}: {} poses, {} mm rms remain\n", *file, json["poses"].get<int>(),

@@ -105,6 +105,21 @@ TEST_F(EnsurePackages, ShowsWhyAnInstallationFailed) {
   EXPECT_THAT(result.err, HasSubstr("\nE: no space left\n"));
 }
 
+TEST_F(EnsurePackages, ThatIsTheSecondWaitsForTheFirstAndInstallsNothingAgain) {
+  const std::string there = root_ / "there";
+  stand_in("dpkg-query", "shift 3; for package; do [ $package = ninja-build -a ! -e '" + there +
+                             "' ] || echo \"installed $package\"; done");
+  stand_in("apt-get", "case \"$*\" in *update* | *--print-uris*) ;; *) mkdir '" + there +
+                          ".now' || exit 1; sleep 1; touch '" + there + "' ;; esac");
+  const auto both = run_command({"/bin/bash", "-c",
+                                 "PATH=\"$0/stand_ins:$PATH\"; \"$0/tools/ensure-packages\" & "
+                                 "\"$0/tools/ensure-packages\" && wait $!",
+                                 root_.path().string()});
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_THAT(both.err, HasSubstr("armature: waits for another one that installs packages\n"));
+  EXPECT_TRUE(fs::exists(there));
+}
+
 TEST_F(EnsurePackages, OfEveryPackageSaysWhatItIsFor) {
   std::ifstream list{root_ / "tools/apt-packages.txt"};
   for (std::string line; std::getline(list, line);) {
@@ -156,6 +171,19 @@ TEST_F(Build, ConfiguresAtFirstAndShowsAllOfItWhenThatFails) {
             "CMake Error: no Eigen\n-- found the compiler\n");
 }
 
+TEST_F(Build, ThatIsTheSecondInAFolderWaitsForTheFirst) {
+  configured("release");
+  const std::string builds = root_ / "builds";
+  stand_in("ninja", "mkdir '" + builds + "' || exit 1; sleep 1; rmdir '" + builds + "'");
+  const auto both = run_command({"/bin/bash", "-c",
+                                 "PATH=\"$0/stand_ins:$PATH\"; \"$0/tools/build\" release & "
+                                 "\"$0/tools/build\" release && wait $!",
+                                 root_.path().string()});
+  EXPECT_EQ(both.exit_code, 0) << both.err;
+  EXPECT_THAT(both.err,
+              HasSubstr("armature: waits for another one that builds in build/release\n"));
+}
+
 using Armature = Tools;
 
 TEST_F(Armature, StopsCommandsAndWatchesWithWhatIsBuiltThoughTheSourcesAreBroken) {
@@ -181,6 +209,20 @@ TEST_F(Armature, BuildsForAStopWhenNothingIsBuilt) {
   const auto result = run({"armature", "stop"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.out, "stopped\n");
+}
+
+using Results = Tools;
+
+TEST_F(Results, LeaveThePageAloneWhenASweepDidNotEndAsOne) {
+  const fs::path page = root_ / "docs/results.md";
+  fs::create_directories(page.parent_path());
+  std::ofstream{page} << "the last ones\n";
+  std::ofstream{root_ / "tools/armature"}
+      << "#!/bin/bash\necho 'sr1_biopsy: 1000 runs'\n[ $2 != sr1_biopsy ] || exit 3\n";
+  const auto result = run({"results"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, HasSubstr("the sweep of sr1_biopsy ended with exit code 3"));
+  EXPECT_EQ(content_of(page), "the last ones\n");
 }
 
 /// What ctest prints of three tests, of which the second `ended`.

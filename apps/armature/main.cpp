@@ -16,6 +16,7 @@
 #include "bench/program.hpp"
 #include "completion/complete.hpp"
 #include "exit_code.hpp"
+#include "standard_output.hpp"
 #include "verbs/verb_tree.hpp"
 #include "verbs/verbs.hpp"
 
@@ -84,7 +85,12 @@ int run_command_line(int argc, char** argv) {
   try {
     app.parse(words);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? kOk : kUsage;
+    std::ostringstream help;
+    if (app.exit(error, help, std::cerr) != 0) return kUsage;
+    return exit_code_of([&] {
+      print_out("{}", help.str());
+      return kOk;
+    });
   } catch (const InvalidChoice& error) {
     fmt::print(stderr, "{}\n", error.what());
     return exit_code_of(error);

@@ -71,6 +71,12 @@ TEST(TheCommandLine, FindsItsPluginsSoundThoughItsParentIgnoresTheEndsOfChildren
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
 }
 
+TEST(TheCommandLine, HelpThatCannotBePrintedWasNotGiven) {
+  const auto lost = run_command({"/bin/sh", "-c", "\"$0\" run --help > /dev/full", armature()});
+  EXPECT_EQ(lost.exit_code, 1);
+  EXPECT_THAT(lost.err, HasSubstr("standard output cannot be written"));
+}
+
 TEST(TheCommandLine, TakesNoValueForAFileAndSaysWhereItGoes) {
   const auto result =
       run_command({armature(), "check", "dental_lamp", "--set", "clock=simulated", "seed=3"});

@@ -51,6 +51,17 @@ TEST(WorkspaceCommand, WritesEveryPointWithItsJointsAndAPicture) {
   fs::remove_all(folder);
 }
 
+TEST(WorkspaceCommand, OfASinglePointIsDrawnWhereItIs) {
+  const fs::path folder = fs::path{testing::TempDir()} / "workspace_of_one_point";
+  const CommandResult result =
+      workspace({"--samples", "1", "--out", folder}, source_file("configs/robots/master.yaml"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const std::string svg = text_of(folder / "workspace.svg");
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+  fs::remove_all(folder);
+}
+
 TEST(WorkspaceCommand, IsThatOfAnArmWhoseJointsTurnWithoutAnEnd) {
   const CommandResult result = workspace({"--tip", "gripper", "--samples", "100", "--json"},
                                          source_file("tests/data/urdf/gantry.urdf"));

@@ -319,6 +319,22 @@ TEST_F(PulledPlug, LinesThatWereDroppedAreCountedAsSoonAsSomebodyReads) {
   EXPECT_TRUE(run.finish(kWithin).out.ends_with("armature: interrupted\n"));
 }
 
+TEST_F(PulledPlug, AClosedTerminalIsNoneOfTheThreeSignalsThatEndAtOnce) {
+  std::signal(SIGHUP, SIG_DFL);  // a run goes on ignoring what its starter ignores, as under nohup
+  Command run{command({"components.arm.params.rest_after_s=1000", "run.stop_within_s=100"}),
+              options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  run.signal(SIGHUP);
+  ASSERT_TRUE(run.wait_for_err("stopping: the terminal was closed", kWithin)) << run.err();
+  run.signal(SIGTERM);
+  ASSERT_TRUE(run.wait_for_err("stopping, at most ", kWithin)) << run.err();
+  run.signal(SIGTERM);
+  std::this_thread::sleep_for(std::chrono::milliseconds{500});
+  EXPECT_THAT(run.err(), Not(HasSubstr("ended at once"))) << "somebody has asked twice only";
+  run.signal(SIGTERM);
+  EXPECT_THAT(run.finish(seconds{5}).err, HasSubstr("ended at once by a third signal"));
+}
+
 TEST_F(PulledPlug, ASecondSignalIsToldHowLongItTakesAndTheThirdEndsAtOnce) {
   Command run{command({"components.arm.params.rest_after_s=1000", "run.stop_within_s=100"}),
               options_};

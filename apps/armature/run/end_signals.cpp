@@ -22,7 +22,7 @@ namespace {
 /// Of an operator, who may lose timeout: several of them end the process at once.
 constexpr std::array kOfOperator{SIGINT, SIGTERM, SIGQUIT};
 
-std::atomic<int> g_signal{0}, g_count{0};
+std::atomic<int> g_signal{0}, g_count{0}, g_of_operator{0};
 std::atomic<bool> g_json{false}, g_reports{false}, g_result_told{false};
 std::string g_report_file;  // set before any handler
 
@@ -85,9 +85,8 @@ void on_signal_before_start(int signal) {
 void on_signal(int signal) {
   // A terminal that is closed may say so several times, and so may a timer, and a limit.
   if (!is_of_operator(signal) && g_count > 0) return;
-  const int count = ++g_count;
-  if (count == 1) g_signal = signal;
-  if (count < 3) return;
+  if (++g_count == 1) g_signal = signal;
+  if (!is_of_operator(signal) || ++g_of_operator < 3) return;
   if (g_result_told)
     leave("", "armature: ended at once by a third signal; its recording is not finished\n");
   leave(

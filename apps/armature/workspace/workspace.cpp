@@ -125,9 +125,10 @@ plot::Curve seen(const Workspace& workspace, int across, int up, double cell_m) 
 
 std::string svg_of(const RobotModel& robot, const Workspace& workspace,
                    const std::optional<RemoteCentre>& centre) {
-  constexpr double kCellsAcross = 90;
+  constexpr double kCellsAcross = 90, kSmallestCell_m = 1e-6;  // a single point has no extent
   const Extent extent = extent_of(workspace);
-  const double cell_m = (extent.upper - extent.lower).maxCoeff() / kCellsAcross;
+  const double cell_m =
+      std::max((extent.upper - extent.lower).maxCoeff() / kCellsAcross, kSmallestCell_m);
   plot::Chart chart{
       .title = fmt::format("Workspace of the tip of {}{}", robot.name(),
                            centre ? ", its shaft in the incision" : ""),

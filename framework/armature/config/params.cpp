@@ -40,7 +40,7 @@ Params Params::read(const std::vector<ParamSpec>& specs, const Node* given,
     const config::MapReader::Reading read = map.read(spec);
     Value value{spec.type, read.value.value_or(config::zero_of(spec.type)),
                 read.node ? read.node->origin() : place, read.is_written};
-    if (read.node && !read.value) is_sound = false;
+    if (!read.value && (read.node || !spec.optional)) is_sound = false;
     if (read.value && read.node && is_missing_text(spec, *read.value)) {
       problems.add(read.node->origin(),
                    fmt::format("'{}' is empty, and has no default", spec.name));

@@ -234,6 +234,16 @@ TEST(Parameters, MayBeComparedWithOneAnother) {
             "f:1:8: 'least' is 3, not below 'poses', which is 3: none would be left");
 }
 
+TEST(Parameters, AreNotComparedWithOneThatIsMissing) {
+  const Node table = config::parse_text(
+      "{least: {type: integer, default: 3, at_most: poses}, poses: {type: integer}}", "t");
+  Problems problems;
+  const auto specs = read_param_specs(table, problems);
+  const Node params = config::parse_text("least: 4", "f");
+  Params::read(specs, &params, "task/x", problems);
+  EXPECT_EQ(text_of(problems), "f:1:1: missing key 'poses' in params of 'task/x'\n");
+}
+
 TEST(ParamSpecs, AreComparedWithWhatCanBeCompared) {
   const std::string ending = "which must be another parameter of the same type and unit";
   for (const char* const other :

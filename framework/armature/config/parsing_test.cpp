@@ -125,6 +125,8 @@ TEST(Parsing, RefusesBytesThatAreNoText) {
   EXPECT_EQ(problems_of(std::string{"a: \0b", 5}),
             "f.yaml:1:4: control character 0x00; is this a YAML file?");
   EXPECT_EQ(problems_of("a: \"\\0\"\n"), "f.yaml:1:5: an escape that makes a control character");
+  EXPECT_EQ(problems_of("a: \"a\\x01b\"\n"),
+            "f.yaml:1:6: an escape that makes a control character");
   EXPECT_EQ(problems_of("a: 1\rb: 2\n"),
             "f.yaml:1:5: a carriage return without a newline; save the file with Unix line ends");
 }

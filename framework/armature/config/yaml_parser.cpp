@@ -75,12 +75,15 @@ class EventReader : public YAML::EventHandler {
     const Origin origin = place(mark);
     const std::string_view written = rest(mark);
     const char quote = tag == "!" && !written.empty() ? written.front() : '\0';
+    bool is_sound = true;  // else a control character may look like a masked one
     if (quote == '\'' || quote == '"') {
-      const auto fault = fault_of_quoted(written);
-      if (fault) problems_.add(place(byte_of(mark) + fault->offset), fault->message);
+      if (const auto fault = fault_of_quoted(written)) {
+        problems_.add(place(byte_of(mark) + fault->offset), fault->message);
+        is_sound = false;
+      }
     }
     if (tree_.expects_key()) key_end_ = byte_of(mark) + value.size() + (quote == '\0' ? 0 : 2);
-    const bool expands = !tree_.expects_key() && (tag != "!" || quote == '"');
+    const bool expands = is_sound && !tree_.expects_key() && (tag != "!" || quote == '"');
     tree_.add(Node::scalar(expands ? expand_variables(value, origin, problems_) : unmask(value),
                            tag == "!", origin));
   }

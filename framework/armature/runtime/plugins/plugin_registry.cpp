@@ -108,9 +108,13 @@ void PluginRegistry::scan(const std::filesystem::path& folder) {
   std::error_code error;
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator{folder, error}) {
-    if (entry.path().extension() == ".so" && entry.is_regular_file(error)) {
+    if (entry.path().extension() == ".so" && entry.is_regular_file(none)) {
       files.push_back(entry.path());
     }
+  }
+  if (error) {
+    warnings_.push_back(
+        fmt::format("plugin folder {}: it cannot be read: {}", folder.string(), error.message()));
   }
   std::sort(files.begin(), files.end());  // the directory's own order is not reproducible
   const std::string level = processor_level();
@@ -176,7 +180,8 @@ std::string PluginRegistry::unknown_text(std::string_view id) const {
   if (id.empty()) return "a plugin is named by its id, family/name, and not by an empty text";
   std::vector<std::string> folders;
   for (const auto& folder : search_path_) {
-    const bool there = std::filesystem::is_directory(folder);
+    std::error_code none;
+    const bool there = std::filesystem::is_directory(folder, none);
     folders.push_back(folder.string() + (there ? "" : " (no such folder)"));
   }
   const std::string meant = meant_by(id, plugins_);

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <atomic>
-#include <chrono>
-#include <cstdint>
 #include <fastdds/dds/publisher/DataWriter.hpp>
 #include <fastdds/dds/publisher/DataWriterListener.hpp>
 #include <fastdds/dds/publisher/Publisher.hpp>
 #include <fastdds/dds/publisher/qos/DataWriterQos.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
-#include <limits>
 #include <utility>
 
 #include "armature/bus/fast_dds/cdr_payload.hpp"
@@ -67,8 +64,7 @@ class FastDdsWriter final : public RemoteWriter, private dds::DataWriterListener
     return watchers;
   }
   bool acknowledged(Duration timeout) override {
-    // DDS counts seconds in 32 bits.
-    constexpr Duration kLongest = std::chrono::seconds{std::numeric_limits<std::int32_t>::max()};
+    constexpr Duration kLongest = seconds(2e9);  // DDS counts seconds in 32 bits
     return queue_->drained(timeout) &&
            writer_->wait_for_acknowledgments(eprosima::fastrtps::Duration_t{
                static_cast<long double>(to_seconds(std::min(timeout, kLongest)))}) ==

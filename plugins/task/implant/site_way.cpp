@@ -69,6 +69,20 @@ double distance(const Isometry3d& image_T_site, const Isometry3d& image_T_other,
                    {.name = "", .from = image_T_other.translation(), .to = image_T_other * mouth});
 }
 
+/// Into which the tool is on its way, or out of which.
+std::size_t site_at(const SiteWay& way, const Eigen::Vector3d& tool) {
+  const auto distance_m = [&](std::size_t site) {
+    return clearance(
+        tool, tool,
+        {.name = "", .from = way.above[site].position, .to = way.bottom[site].position});
+  };
+  std::size_t nearest = 0;
+  for (std::size_t site = 1; site < way.above.size(); ++site) {
+    if (distance_m(site) < distance_m(nearest)) nearest = site;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 std::optional<std::string> defect(const std::vector<Isometry3d>& image_T_sites,
@@ -121,7 +135,10 @@ SiteWay drilling_way(const GuidedChain& chain, const Isometry3d& flange_T_file_t
         {pose_at(chain, flange_T_file_tool, site * up), pose_at(chain, flange_T_file_tool, site)});
   }
   SiteWay way;
-  for (const SitePoses& site : sites) way.above.push_back(site.above);
+  for (const SitePoses& site : sites) {
+    way.above.push_back(site.above);
+    way.bottom.push_back(site.bottom);
+  }
   const bool stops = parameters.stop_at_sites || !parameters.auto_confirm;
   way.passes = stops ? site_by_site(sites) : in_one_motion(sites);
   return way;
@@ -154,6 +171,7 @@ SiteWay placing_way(const GuidedChain& chain, const Isometry3d& flange_T_file_to
     in.goal.max_speed = implants[i].pitch_m * parameters.max_turn / (2 * std::numbers::pi);
     Pass out{.goal = above, .site = i, .sites = i + 1, .name = "off " + name};
     way.above.push_back(above.pose);
+    way.bottom.push_back(in.goal.pose);
     way.passes.insert(way.passes.end(), {std::move(to_the_bone), std::move(in), std::move(out)});
   }
   return way;
@@ -175,10 +193,8 @@ bool is_above(const SiteWay& way, const Eigen::Vector3d& tool, std::size_t site)
 }
 
 MotionGoal way_out(const SiteWay& way, const Eigen::Vector3d& tool, std::size_t site) {
-  const auto from_tool = [&](const ToolPose& pose) { return (pose.position - tool).norm(); };
-  const auto nearest = std::ranges::min_element(way.above, {}, from_tool);
   MotionGoal goal;
-  for (auto at = static_cast<std::size_t>(nearest - way.above.begin()); at > site; --at) {
+  for (std::size_t at = site_at(way, tool); at > site; --at) {
     if (!is_above(way, tool, at)) goal.through.push_back(way.above[at]);
   }
   goal.pose = way.above[site];

@@ -43,7 +43,8 @@ struct Pass {
 
 /// Which way a tool goes, in poses of the robot file's tool.
 struct SiteWay {
-  std::vector<ToolPose> above;  // each site; the approach ends above the first
+  std::vector<ToolPose> above;   // each site; the approach ends above the first
+  std::vector<ToolPose> bottom;  // where the way into each ends
   std::vector<Pass> passes;
 };
 
@@ -69,8 +70,8 @@ GuidedChain with_implant(GuidedChain chain, const PlannedImplant& implant);
 /// Where the end of an implant stays.
 Eigen::Isometry3d place_of(const Eigen::Isometry3d& image_T_site, const PlannedImplant& implant);
 
-/// From a place on the way out of the bone and, from above one site to above the next, back to
-/// above `site`. `tool`: where the tool is [m].
+/// From a place on the way out of the bore that the tool is in and, from above one site to above
+/// the next, back to above `site`. `tool`: where the tool is [m].
 MotionGoal way_out(const SiteWay& way, const Eigen::Vector3d& tool, std::size_t site);
 
 /// Whether it is there already.

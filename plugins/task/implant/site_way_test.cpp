@@ -104,6 +104,21 @@ TEST_F(SiteWayTest, LeadsOutOfTheBoneAndBackOverTheSitesThatItCameBy) {
   EXPECT_FALSE(is_above(way, bottom, 2));
 }
 
+/// The stand-off of a deeper neighbour is nearer to the bottom of a bore than the bore's own.
+TEST_F(SiteWayTest, LeadsStraightOutOfTheBoreThatTheToolIsInWhereverANeighbourHasItsStandOff) {
+  for (const bool second : {false, true}) {
+    SCOPED_TRACE(second ? "in the second bore" : "in the first bore");
+    sites_ = {Isometry3d{Eigen::Translation3d{0, 0, second ? 0.0015 : 0}},
+              Isometry3d{Eigen::Translation3d{0.008, 0, second ? 0 : 0.0015}}};
+    const SiteWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});
+    const MotionGoal& pass = way.passes[0].goal;
+    const MotionGoal out = way_out(way, pass.through[second ? 3 : 0].position, 0);
+    ASSERT_EQ(out.through.size(), second ? 1u : 0u);
+    if (second) expect_at(out.through[0], 1, 0.03);
+    expect_at(out.pose, 0, 0.03);
+  }
+}
+
 TEST_F(SiteWayTest, AnImplantGoesToTheBoneThenSlowlyToItsPlaceAndTheDriverOutWithoutIt) {
   const std::vector<PlannedImplant> implants(3, {0.0005, 0.011, 0.0012});
   const SiteWay way =

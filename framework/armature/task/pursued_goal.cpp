@@ -44,6 +44,11 @@ void PursuedGoal::pause() {
   interrupted_ = {rest, once};
 }
 
+void PursuedGoal::leave() {
+  pause();
+  interrupted_.reset();
+}
+
 void PursuedGoal::resume() {
   if (!interrupted_) return;
   resumes_ = state_ == State::pausing;

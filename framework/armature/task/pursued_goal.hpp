@@ -31,6 +31,8 @@ class PursuedGoal {
   /// Stops an arm that is on its way, along the way where that can be. `hear` tells when it is
   /// paused. Of a goal that has been done, or has failed, nothing moves: nothing to do.
   void pause();
+  /// Stops it in the same way and gives its goal up: a resume does not go on with it.
+  void leave();
   /// Goes on after a pause: a goal that must not be begun a second time along its way, any other
   /// from where the arm is. An arm that still slows down comes to rest first.
   void resume();

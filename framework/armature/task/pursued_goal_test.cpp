@@ -96,6 +96,20 @@ TEST_F(PausedGoalTest, AWayThatMustNotBeBegunTwiceIsGoneOnWith) {
   EXPECT_EQ(goals_.stops_ahead(), 2);
 }
 
+TEST_F(PausedGoalTest, AGoalThatWasLeftIsNotGoneOnWith) {
+  goals_.set(goal_);
+  sent();
+  hear(Report::executing);
+  goals_.leave();
+  EXPECT_EQ(sent().mode, MotionMode::pause);
+  goals_.pause();
+  goals_.resume();
+  hear(Report::done);
+  EXPECT_EQ(goals_.state(), PursuedGoal::State::paused);
+  goals_.resume();
+  EXPECT_FALSE(goals_.outgoing(at(1)));
+}
+
 TEST_F(PausedGoalTest, AnyOtherGoalIsGivenAnewAndSoIsOneThatHadNotBegun) {
   goals_.set(goal_);
   sent();

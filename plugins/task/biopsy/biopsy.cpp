@@ -171,7 +171,7 @@ Expected<void> Biopsy::hear(const OperatorCommand& command, Time now) {
       break;
     case OperatorWord::pause: goal_.pause(); break;
     case OperatorWord::resume:
-      if (turning_to_ == Heading::none) goal_.resume();
+      goal_.resume();
       waits_since_ = now;
       break;
     case OperatorWord::back: return go_back(now);
@@ -200,7 +200,7 @@ Expected<void> Biopsy::go_back(Time now) {
     enter(Step::registration);
     return {};
   }
-  goal_.pause();
+  goal_.leave();
   held_ = false;
   turning_to_ = Heading::back;
   return {};
@@ -217,7 +217,7 @@ Expected<void> Biopsy::abort() {
     procedure_.end(Procedure::StepState::broken_off);
     return {};
   }
-  goal_.pause();
+  goal_.leave();
   held_ = false;
   turning_to_ = Heading::home;
   return {};

@@ -96,6 +96,19 @@ TEST_F(OperatedImplantTest, BackBeforeTheFirstSiteRegistersAgain) {
   EXPECT_EQ(asked(), "approach");
 }
 
+TEST_F(OperatedImplantTest, AnApproachThatWasLeftBackIsNotGoneOnWithAfterAPause) {
+  confirm("approach");
+  EXPECT_EQ(say("back"), "");
+  go_to(Phase::approaching);
+  EXPECT_EQ(asked(), "approach");
+  const std::size_t until_then = goals_.size();
+  EXPECT_EQ(say("pause"), "");
+  wait(0.2);
+  EXPECT_EQ(say("resume"), "");
+  wait(1);
+  EXPECT_EQ(goals_.size(), until_then) << "nothing moves before its confirmation";
+}
+
 TEST_F(OperatedImplantTest, AbortedInABoreItGoesOutAndOverTheSitesToWhereItCameFrom) {
   const Vector3d came_from = tool();
   confirm("approach");

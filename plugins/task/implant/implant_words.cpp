@@ -32,7 +32,7 @@ Expected<void> Implant::go_back(Time now) {
   if (!again && placed) return armature::refuse("the implant before stays where it was placed");
   if (const auto may = goal_.may_move(); !may && !again) return may;
   procedure_.turn_back();
-  goal_.pause();
+  goal_.leave();
   if (again) {
     register_again("");
   } else if (!set_out_) {
@@ -64,7 +64,7 @@ Expected<void> Implant::abort() {
   if (const auto may = goal_.may_move(); !may && near_the_jaw()) return may;
   procedure_.turn_back();
   if (near_the_jaw()) {
-    if (!turned_ || phase_ != Phase::going_back) goal_.pause();
+    if (!turned_ || phase_ != Phase::going_back) goal_.leave();
     set_out_ = true;
     trouble_.clear();
     led_out_anyhow_ = phase_ == Phase::held;
@@ -72,7 +72,7 @@ Expected<void> Implant::abort() {
     turned_ = false;
     return {};
   }
-  goal_.pause();
+  goal_.leave();
   phase_ = Phase::aborted;
   procedure_.end(Procedure::StepState::broken_off);
   return {};

@@ -171,6 +171,27 @@ TEST_F(OperatedLampTest, BackFromTheAlignmentSearchesAgainOnceThatIsConfirmed) {
   EXPECT_EQ(asked(), "alignment");
 }
 
+TEST_F(OperatedLampTest, AnAlignmentThatWaitsForTheMotionIsGivenUpWithTheFace) {
+  confirm("search");
+  run(20);
+  reach_m_ = 0.1;
+  confirm("alignment");
+  ASSERT_TRUE(run_until(Phase::unreachable, 5));
+  is_ready_ = false;
+  mouth_.y() += 0.1;
+  run(3);
+  present_ = false;
+  for (int i = 0; i < 1000 && asked() != "search"; ++i) tick();
+  ASSERT_EQ(asked(), "search");
+  const std::size_t until_then = goals_.size();
+  is_ready_ = true;
+  reach_m_ = 10;
+  run(3);
+  for (std::size_t i = until_then; i < goals_.size(); ++i) {
+    EXPECT_EQ(goals_[i].mode, MotionMode::pause) << "nothing moves before its confirmation";
+  }
+}
+
 TEST_F(OperatedLampTest, AbortedAtTheFaceItGoesBackToTheViewFromWhichItCame) {
   confirm("search");
   run(20);

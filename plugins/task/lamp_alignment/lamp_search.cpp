@@ -38,6 +38,7 @@ void LampAlignment::set_out() {
 }
 
 void LampAlignment::search_for_lost_face(Time now) {
+  goals_.leave();
   start_search(now);
   if (!face_.no_estimate().empty()) trouble_ = "the face was lost: " + face_.no_estimate();
 }

@@ -84,7 +84,7 @@ Expected<void> Tour::go_back() {
     return refuse("there is no waypoint before this one");
   if (const auto may = goal_.may_move(); !may) return may;
   procedure_.turn_back();
-  goal_.pause();
+  goal_.leave();
   come_to(number_ - 1);
   return {};
 }
@@ -99,7 +99,7 @@ Expected<void> Tour::abort() {
     procedure_.end(Procedure::StepState::broken_off);
     return {};
   }
-  goal_.pause();
+  goal_.leave();
   phase_ = Phase::aborting;
   aborts_ = true;
   return {};

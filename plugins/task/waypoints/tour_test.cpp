@@ -107,6 +107,21 @@ TEST_F(OperatedTourTest, BackGoesToTheWaypointBefore) {
   EXPECT_EQ(follow(tour_, 2), std::vector<double>{1});
 }
 
+TEST_F(OperatedTourTest, AWaypointThatWasLeftBackIsNotGoneOnToAfterAPause) {
+  follow(tour_, 1);
+  say("confirm", "waypoint 1");
+  follow(tour_, 2);
+  say("confirm", "waypoint 2");
+  follow(tour_, 0.3);
+  EXPECT_EQ(say("back"), "");
+  follow(tour_, 1);
+  EXPECT_EQ(say("pause"), "");
+  follow(tour_, 1);
+  EXPECT_EQ(say("resume"), "");
+  EXPECT_TRUE(follow(tour_, 2).empty());
+  EXPECT_EQ(tour_.phase(), Tour::Phase::asking);
+}
+
 TEST_F(OperatedTourTest, AbortedItGoesBackAlongTheWayThatItCame) {
   follow(tour_, 1);
   say("confirm", "waypoint 1");

@@ -86,11 +86,13 @@ void Implant::hear(const GoalReport& report, Time now) {
   }
   const bool above = phase_ == Phase::approaching, out = phase_ == Phase::withdrawing;
   if (!set_out_ || !(above || out || at_sites())) return;
+  if (goal_.state() == PursuedGoal::State::moving) under_way_ = true;
   if (failed) {
-    return refuse((above ? "above site 1"
-                   : out ? "withdrawal"
-                         : pass().name) +
-                  ": " + goal_.reason());
+    const std::string why = (above ? "above site 1"
+                             : out ? "withdrawal"
+                                   : pass().name) +
+                            ": " + goal_.reason();
+    return above && !under_way_ ? refuse_approach(why, now) : refuse(why);
   }
   if (there && above) come_to_pass(0, now);
   if (there && out && homing_) return finish_round(now);
@@ -205,20 +207,27 @@ void Implant::plan_rounds() {
 }
 
 void Implant::enter_approach(Time now) {
-  set_out_ = false;
+  set_out_ = under_way_ = false;
   phase_ = Phase::approaching;
   guidance_.begin_to_guard(now);
   procedure_.enter(rounds_[round_].approach);
   set_out(now);
 }
 
+void Implant::refuse_approach(const std::string& why, Time now) {
+  if (procedure_.auto_confirm()) return refuse(why);
+  enter_approach(now);
+  trouble_ = why;
+}
+
 void Implant::set_out(Time now) {
   if (!procedure_.may_act()) return;
   set_out_ = true;
+  trouble_.clear();
   const SiteWay& way = rounds_[round_].way;
   switch (phase_) {
     case Phase::approaching: return goal_.set_once({.pose = way.above.front()});
-    case Phase::withdrawing: homing_ = false; return lead_out();
+    case Phase::withdrawing: return lead_out();
     default:
       if (pass().turns) {
         const std::size_t site = pass().site;
@@ -236,7 +245,7 @@ void Implant::come_to_pass(std::size_t pass, Time now) {
   phase_ = placing() ? Phase::placing : Phase::drilling;
   thread_watch_.release();
   pass_ = pass;
-  set_out_ = false;
+  set_out_ = homing_ = false;
   if (this->pass().asks) {
     const auto& passes = rounds_[round_].way.passes;
     const auto steps = std::count_if(passes.begin(), passes.begin() + static_cast<int>(pass_),
@@ -284,7 +293,7 @@ void Implant::finish_round(Time now) {
 
 bool Implant::near_the_jaw() const {
   switch (phase_) {
-    case Phase::approaching: return set_out_;
+    case Phase::approaching: return under_way_;
     case Phase::drilling:
     case Phase::placing:
     case Phase::withdrawing:

@@ -111,6 +111,8 @@ class Implant {
   void go_on_calibrating();
   void plan_rounds();
   void enter_approach(Time now);
+  /// Of one that has moved nothing: where there is an operator, he is asked again.
+  void refuse_approach(const std::string& why, Time now);
   void go_on(Time now);
   void withdraw(Time now);
   void finish_round(Time now);
@@ -144,6 +146,7 @@ class Implant {
   std::size_t round_ = 0, pass_ = 0;   // of rounds_, and of its way
   Time out_at_;                        // since then the drill is out, and may be changed
   bool set_out_ = false;               // for the approach, or for the pass
+  bool under_way_ = false;             // the approach has been seen to move the arm
   bool turned_ = false;                // going back or aborting: the way back is under way
   bool homing_ = false;                // led out: on the way to where the approach began
   bool led_out_anyhow_ = false;        // aborted while it was held, whatever the handpiece does

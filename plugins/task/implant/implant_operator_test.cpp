@@ -134,6 +134,67 @@ TEST_F(OperatedImplantTest, AbortedOnTheApproachItGoesBackAlongIt) {
   go_to(Phase::aborted);
 }
 
+/// Else it would go back along the way of a calibration pose.
+TEST_F(OperatedImplantTest, AbortedWhileItsApproachIsPlannedItStaysWhereItIs) {
+  begins_ = false;
+  confirm("approach");
+  EXPECT_EQ(say("abort"), "");
+  EXPECT_EQ(task_.phase(), Phase::aborted);
+  step();
+  EXPECT_EQ(goals_.back().mode, MotionMode::pause);
+  const std::size_t until_then = goals_.size();
+  wait(0.5);
+  EXPECT_EQ(goals_.size(), until_then);
+}
+
+TEST_F(OperatedImplantTest, AnApproachThatIsRefusedBeforeItBeganIsAskedForAgain) {
+  begins_ = false;
+  confirm("approach");
+  task_.hear({.goal_id = goals_.back().id,
+              .state = Report::failed,
+              .stage = "ik",
+              .reason = "the goal: out_of_reach"},
+             now());
+  EXPECT_EQ(task_.phase(), Phase::approaching);
+  EXPECT_EQ(asked(), "approach");
+  EXPECT_EQ(task_.trouble(), "above site 1: ik: the goal: out_of_reach");
+  const std::size_t until_then = goals_.size();
+  wait(0.5);
+  EXPECT_EQ(goals_.size(), until_then);
+  begins_ = true;
+  confirm("approach");
+  EXPECT_EQ(task_.trouble(), "");
+  run_until_asked();
+  EXPECT_EQ(asked(), "site 1");
+}
+
+TEST_F(OperatedImplantTest, AJawThatMovesWhileTheApproachIsPlannedIsRegisteredAgain) {
+  begins_ = false;
+  confirm("approach");
+  chain_.tracker_T_patient = chain_.tracker_T_patient * Eigen::Translation3d{0.01, 0, 0};
+  for (int i = 0; i < 50 && !task_.wants_registration(); ++i) step();
+  EXPECT_TRUE(task_.wants_registration()) << task_.trouble();
+  EXPECT_EQ(goals_.back().mode, MotionMode::pause) << "what was planned is not begun";
+}
+
+TEST_F(OperatedImplantTest, AbortedOnItsLastWayHomeItGoesOnHome) {
+  const Vector3d home = tool();
+  for (const char* step : {"approach", "site 1", "site 2"}) confirm(step);
+  const auto is_home = [&](const MotionGoal& goal) {
+    return (goal.pose.position - home).norm() < 1e-9;
+  };
+  for (int i = 0; i < 500 && !is_home(goals_.back()); ++i) step();
+  ASSERT_EQ(task_.phase(), Phase::withdrawing);
+  std::size_t said_at = goals_.size();
+  EXPECT_EQ(say("abort"), "");
+  go_to(Phase::aborted);
+  for (; said_at < goals_.size(); ++said_at) {
+    EXPECT_TRUE(goals_[said_at].mode == MotionMode::pause || is_home(goals_[said_at]))
+        << "it does not turn back to the jaw";
+  }
+  EXPECT_TRUE(is_home(goals_.back()));
+}
+
 TEST_F(OperatedImplantTest, AbortedBeforeAnythingMovedItIsOver) {
   EXPECT_EQ(say("abort"), "");
   EXPECT_EQ(task_.phase(), Phase::aborted);

@@ -99,6 +99,7 @@ class ImplantTest : public testing::Test {
   }
   void drive(const MotionGoal& goal) {
     goals_.push_back(goal);
+    if (!begins_) return;
     task_.hear({.goal_id = goal.id, .state = Report::executing}, now());
     if (goal.mode == MotionMode::hold) return;
     done_ = goal.id;
@@ -164,6 +165,7 @@ class ImplantTest : public testing::Test {
   bool handpiece_ = true;
   double angle_ = 11, turned_from_ = 11, turned_part_ = 1;
   Isometry3d base_T_flange_ = Isometry3d::Identity();
+  bool begins_ = true;  // the motion, with a goal that it is sent
   std::uint64_t done_ = 0;
   std::vector<MotionGoal> goals_;
   Implant task_{quick(), med7(), file_tool_};

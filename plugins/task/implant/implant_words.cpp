@@ -47,13 +47,15 @@ Expected<void> Implant::go_back(Time now) {
 
 void Implant::see_jaw_moved(const std::string& why) {
   const bool nothing_set_out =
-      phase_ == Phase::locating || (phase_ == Phase::approaching && !set_out_);
+      phase_ == Phase::locating || (phase_ == Phase::approaching && !under_way_);
   if (procedure_.auto_confirm() || !nothing_set_out) return refuse(why);
+  goal_.leave();
   register_again(why);
 }
 
 void Implant::register_again(const std::string& why) {
   guidance_.register_again(why);
+  trouble_.clear();
   phase_ = Phase::registering;
   procedure_.enter(kRegistration);
 }
@@ -82,7 +84,7 @@ void Implant::turn_back() {
   if (procedure_.paused() || !base_T_flange_) return;
   turned_ = true;
   const bool approached = procedure_.step() > rounds_[round_].approach;
-  homing_ = !approached;
+  homing_ = homing_ || !approached;
   if (!approached) return goal_.retrace(false);
   if (thread()) {
     constexpr double kAtMouth_m = 1e-4;

@@ -43,6 +43,7 @@ void Tour::come_to(std::size_t number) {
 void Tour::hear(const GoalReport& report, Time now) {
   goal_.hear(report, now);
   using State = PursuedGoal::State;
+  if (goal_.state() == State::moving) has_moved_ = true;
   if (phase_ == Phase::aborting && !aborts_) {
     if (goal_.state() != State::done && goal_.state() != State::failed) return;
     if (goal_.state() == State::failed) trouble_ = "the way back failed: " + goal_.reason();
@@ -91,15 +92,14 @@ Expected<void> Tour::go_back() {
 
 Expected<void> Tour::abort() {
   if (phase_ == Phase::aborting) return refuse("it is being aborted already");
-  const bool has_moved = goal_.state() != PursuedGoal::State::none;
-  if (const auto may = goal_.may_move(); !may && has_moved) return may;
+  if (const auto may = goal_.may_move(); !may && has_moved_) return may;
   procedure_.turn_back();
-  if (!has_moved) {
+  goal_.leave();
+  if (!has_moved_) {
     phase_ = Phase::aborted;
     procedure_.end(Procedure::StepState::broken_off);
     return {};
   }
-  goal_.leave();
   phase_ = Phase::aborting;
   aborts_ = true;
   return {};

@@ -51,8 +51,9 @@ class Tour {
   std::vector<ToolPose> waypoints_;
   Procedure procedure_;
   PursuedGoal goal_;
-  bool set_out_ = false;  // to the waypoint
-  bool aborts_ = false;   // as soon as the arm rests
+  bool set_out_ = false;    // to the waypoint
+  bool has_moved_ = false;  // the arm, on any way
+  bool aborts_ = false;     // as soon as the arm rests
   Phase phase_ = Phase::waiting;
   std::size_t number_ = 0;
   int round_ = 0;

@@ -156,6 +156,20 @@ TEST_F(OperatedTourTest, AbortedBeforeAnythingMovedItIsOver) {
   EXPECT_EQ(tour_.phase(), Tour::Phase::aborted);
 }
 
+/// Else it would go back along a way that the motion has from before this tour.
+TEST_F(OperatedTourTest, AbortedWhileItsFirstWayIsPlannedItStaysWhereItIs) {
+  tour_.see({});
+  EXPECT_EQ(say("confirm", "waypoint 1"), "");
+  ASSERT_TRUE(tour_.outgoing_goal(now_));
+  EXPECT_EQ(say("abort"), "");
+  EXPECT_EQ(tour_.phase(), Tour::Phase::aborted);
+  const auto pause = tour_.outgoing_goal(now_);
+  ASSERT_TRUE(pause);
+  EXPECT_EQ(pause->mode, MotionMode::pause) << "what was planned is not begun";
+  tour_.hear({.goal_id = pause->id, .state = GoalReport::State::done}, now_);
+  EXPECT_FALSE(tour_.outgoing_goal(now_ + seconds(5)));
+}
+
 TEST_F(TourTest, AWaypointThatCannotBeReachedIsNamed) {
   Tour tour{{.rest = 0, .rounds = 0, .auto_confirm = true}, {at_x(1), at_x(2)}};
   follow(tour, 0.8);

@@ -79,7 +79,8 @@ void Biopsy::update(Time now) {
   if (procedure_.over()) return;
   const bool rests = goal_.state() != PursuedGoal::State::pausing;
   if (turning_to_ != Heading::none && rests && !procedure_.paused()) {
-    return turn_to(std::exchange(turning_to_, Heading::none));
+    const Heading heading = std::exchange(turning_to_, Heading::none);
+    return has_set_out_ ? turn_to(heading) : turn_at_once(heading, now);
   }
   if (!procedure_.may_act() || heading_ != Heading::none || held_) return;
   switch (step()) {
@@ -113,6 +114,29 @@ void Biopsy::turn_to(Heading heading) {
   goal_.retrace(heading != Heading::home);
 }
 
+void Biopsy::turn_at_once(Heading heading, Time now) {
+  trouble_.clear();
+  heading_ = Heading::none;
+  if (heading == Heading::home) return end_aborted();
+  ask_again(now);
+}
+
+void Biopsy::ask_again(Time now) {
+  if (parameters_.touch_markers) give_to_hand(now);
+  enter(Step::approach);
+}
+
+void Biopsy::forget_line() {
+  line_.reset();
+  way_stops_ = 0;
+  has_set_out_ = false;
+}
+
+void Biopsy::end_aborted() {
+  ended_as_ = Phase::aborted;
+  procedure_.end(Procedure::StepState::broken_off);
+}
+
 void Biopsy::hear(const GoalReport& report, Time now) {
   const bool was_led = led();
   goal_.hear(report, now);
@@ -133,10 +157,7 @@ void Biopsy::arrive(Time now) {
   if (way_stops_ == 0 && came == Heading::onward) way_stops_ = ahead + 1;
   has_set_out_ = way_stops_ > 0;
   place_ = came == Heading::onward ? way_stops_ - ahead : ahead;
-  if (came == Heading::home) {
-    ended_as_ = Phase::aborted;
-    return procedure_.end(Procedure::StepState::broken_off);
-  }
+  if (came == Heading::home) return end_aborted();
   if (came != Heading::out) {
     if (place_ == way_stops_) at_target_since_ = now;
     return enter(step_from(place_));
@@ -194,9 +215,7 @@ Expected<void> Biopsy::go_back(Time now) {
   if (const auto may = goal_.may_move(); !may && !stands_where_it_began) return may;
   procedure_.turn_back();
   if (stands_where_it_began) {
-    line_.reset();
-    way_stops_ = 0;
-    has_set_out_ = false;
+    forget_line();
     enter(Step::registration);
     return {};
   }
@@ -212,9 +231,8 @@ Expected<void> Biopsy::abort() {
   if (const auto may = goal_.may_move(); !may && !stands_where_it_began) return may;
   procedure_.turn_back();
   if (stands_where_it_began) {
-    ended_as_ = Phase::aborted;
     take_from_hand();
-    procedure_.end(Procedure::StepState::broken_off);
+    end_aborted();
     return {};
   }
   goal_.leave();
@@ -228,9 +246,7 @@ void Biopsy::break_down(const std::string& why, Time now) {
   heading_ = turning_to_ = Heading::none;
   trouble_ = why;
   held_ = has_set_out_;
-  if (held_) return;
-  if (parameters_.touch_markers) give_to_hand(now);
-  enter(Step::approach);
+  if (!held_) ask_again(now);
 }
 
 void Biopsy::refuse(const std::string& why) {

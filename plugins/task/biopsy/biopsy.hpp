@@ -89,6 +89,12 @@ class Biopsy {
   Expected<void> abort();
   /// Along the way, once the arm rests.
   void turn_to(Heading heading);
+  /// The same of a way that was not begun: the arm is where it would lead back to.
+  void turn_at_once(Heading heading, Time now);
+  /// A way that has not been begun is planned anew once the approach is confirmed again.
+  void ask_again(Time now);
+  void forget_line();
+  void end_aborted();
   /// For good; or, where an operator is there, until he leads back a needle that has set out, or
   /// confirms again the approach of one that has not.
   void break_down(const std::string& why, Time now);

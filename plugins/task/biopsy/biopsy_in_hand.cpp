@@ -8,7 +8,7 @@ namespace armature::task::biopsy {
 
 bool Biopsy::in_hand() const {
   return parameters_.touch_markers && has_plan_ && !procedure_.over() && way_stops_ == 0 &&
-         heading_ == Heading::none;
+         heading() == Heading::none && !held_;
 }
 
 bool Biopsy::led() const {
@@ -19,6 +19,7 @@ void Biopsy::give_to_hand(Time now) {
   waits_since_ = now;
   takes_back_ = false;
   goal_.set({.mode = MotionMode::guided, .pose = {}});
+  if (procedure_.paused()) goal_.pause();
 }
 
 void Biopsy::take_from_hand() {
@@ -70,8 +71,7 @@ void Biopsy::touch_again(Time now) {
   touching_.drop_last();
   procedure_.turn_back();
   trouble_.clear();
-  line_.reset();
-  way_stops_ = 0;
+  forget_line();
   give_to_hand(now);
   procedure_.enter(1 + touching_.places().size());
 }

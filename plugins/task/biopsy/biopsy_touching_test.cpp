@@ -85,6 +85,15 @@ class TouchedBiopsyTest : public testing::Test {
   void register_head() {
     task_->see_registration({.fiducial_error_m = 0.0004, .target_error95_m = 0.0005}, now_);
   }
+  /// From the last touch, or all, until the planner has the approach.
+  void send_approach() {
+    register_head();
+    lead_away();
+    EXPECT_EQ(say("confirm", "approach"), "");
+    run(0.1);
+    take_back();
+    EXPECT_EQ(goal_.mode, MotionMode::planned);
+  }
 
   const std::vector<Vector3d> kMarkers{{0.4, 0, 0.2}, {0.5, 0, 0.2}, {0.4, 0.13, 0.2}};
   Time now_ = Time{} + seconds(1.0);
@@ -356,6 +365,92 @@ TEST_F(TouchedBiopsyTest, BackFromTheApproachGivesTheArmToTheHand) {
   run(0.1);
   EXPECT_EQ(goal_.mode, MotionMode::guided);
   EXPECT_EQ(asked(), "marker 3");
+}
+
+TEST_F(TouchedBiopsyTest, ANeedleThatIsHeldOnItsFirstStretchStaysSoHoweverOftenItIsTold) {
+  for (const std::string word : {"back", "abort"}) {
+    begin(false);
+    touch_all();
+    send_approach();
+    hear(GoalReport::State::executing);
+    for (int i = 0; i < 3; ++i) {
+      hear(GoalReport::State::failed, "execution", "the arm does not follow");
+      run(0.1);
+      EXPECT_EQ(task_->phase(), Phase::held);
+    }
+    EXPECT_EQ(say(word), "");
+    hear(GoalReport::State::failed, "execution", "the arm does not follow");
+    run(0.1);
+    EXPECT_EQ(goal_.mode, MotionMode::retrace) << "the operator leads it out";
+    EXPECT_FALSE(task_->procedure().over());
+  }
+}
+
+TEST_F(TouchedBiopsyTest, AWayThatCannotBePlannedAfterANewTouchIsAskedForAgainToo) {
+  begin(false);
+  touch_all();
+  send_approach();
+  hear(GoalReport::State::executing);
+  task_->hear({.goal_id = goal_.id, .state = GoalReport::State::done, .stops_ahead = 2}, now_);
+  EXPECT_EQ(say("back"), "");
+  run(0.1);
+  hear(GoalReport::State::executing);
+  hear(GoalReport::State::done);
+  EXPECT_EQ(say("back"), "");
+  run(0.1);
+  EXPECT_EQ(asked(), "marker 3");
+  lead_to(kMarkers[2]);
+  say("confirm", "marker 3");
+  send_approach();
+  hear(GoalReport::State::failed, "links", "lead it to another start");
+  run(0.1);
+  EXPECT_EQ(asked(), "approach");
+  EXPECT_EQ(goal_.mode, MotionMode::guided);
+}
+
+TEST_F(TouchedBiopsyTest, AbortedWhileItsWayIsPlannedItIsOver) {
+  for (const bool paused : {false, true}) {
+    begin(false);
+    touch_all();
+    send_approach();
+    if (paused) {
+      EXPECT_EQ(say("pause"), "");
+      run(0.1);
+    }
+    EXPECT_EQ(say("abort"), "");
+    run(0.1);
+    EXPECT_EQ(goal_.mode, MotionMode::pause) << "what was planned is not begun";
+    hear(GoalReport::State::done);
+    const auto last = goal_.id;
+    run(1);
+    EXPECT_EQ(task_->phase(), Phase::aborted);
+    EXPECT_EQ(goal_.id, last) << "it does not go back along a way that it did not come";
+  }
+}
+
+TEST_F(TouchedBiopsyTest, BackWhileItsWayIsPlannedGivesTheArmToTheHandAgain) {
+  begin(false);
+  touch_all();
+  send_approach();
+  EXPECT_EQ(say("back"), "");
+  run(0.1);
+  hear(GoalReport::State::done);
+  run(0.1);
+  EXPECT_EQ(goal_.mode, MotionMode::guided);
+  EXPECT_EQ(asked(), "approach");
+  EXPECT_EQ(task_->trouble(), "");
+}
+
+TEST_F(TouchedBiopsyTest, APlanThatComesInAPauseGivesTheArmToNoHandBeforeItsEnd) {
+  task_.emplace(Parameters{.touch_markers = true, .auto_confirm = false}, arm());
+  EXPECT_EQ(say("pause"), "");
+  task_->see_head(plan(), kMarkers, now_);
+  run(0.1);
+  EXPECT_NE(goal_.mode, MotionMode::guided);
+  hear(GoalReport::State::done);
+  EXPECT_EQ(say("resume"), "");
+  run(0.1);
+  EXPECT_EQ(goal_.mode, MotionMode::guided);
 }
 
 TEST_F(TouchedBiopsyTest, MarkersThatDoNotFitAreTouchedAgainByAnOperator) {

@@ -49,6 +49,19 @@ TEST(BandPower, MissingPointsOfASlowMotionAreNoTremor) {
   EXPECT_LT(std::sqrt(band_power(track, 8, 12)), 2e-6);
 }
 
+/// A sum over the whole of it would take a minute, and count what comes in the middle most.
+TEST(BandPower, OfALongMotionEveryPartCountsAlike) {
+  constexpr double kLasts_s = 240, kTrembles_s = 40;
+  for (const double from_s : {20.0, 100.0, 180.0}) {
+    const Track track = track_of(kLasts_s, [&](double t) {
+      const bool trembles = t >= from_s && t < from_s + kTrembles_s;
+      return Eigen::Vector3d{0.02 * sine(0.25, t), trembles ? 0.003 * sine(10, t) : 0, 0};
+    });
+    const double mean = 0.5 * 0.003 * 0.003 * kTrembles_s / kLasts_s;
+    EXPECT_NEAR(band_power(track, 8, 12), mean, 0.02 * mean) << "from " << from_s << " s on";
+  }
+}
+
 TEST(BandPower, OfNothingIsNothing) {
   EXPECT_EQ(band_power({}, 8, 12), 0);
   EXPECT_EQ(band_power(track_of(0.002, [](double) { return Eigen::Vector3d{1, 2, 3}; }), 8, 12), 0);

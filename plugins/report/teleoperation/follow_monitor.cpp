@@ -51,6 +51,22 @@ void keep_largest(std::optional<double>& kept, double value) {
 
 }  // namespace
 
+void FollowMonitor::add(const TrackPoint& point, Track& track) const {
+  constexpr double kKept_s = 2;  // more than any lag
+  track.push_back(point);
+  if (!clutch_.empty() || point.t - track.front().t < 2 * kKept_s) return;
+  track.erase(track.begin(),
+              std::ranges::lower_bound(track, point.t - kKept_s, {}, &TrackPoint::t));
+}
+
+void FollowMonitor::see_follower(const TrackPoint& point) {
+  if (!follower_.empty() && point.t > follower_.back().t) {
+    const TrackPoint& last = follower_.back();
+    keep_largest(top_speed_m_s_, (point.position - last.position).norm() / (point.t - last.t));
+  }
+  add(point, follower_);
+}
+
 void FollowMonitor::see_clutch(bool closed, double t) {
   const bool was_closed = !clutch_.empty() && clutch_.back().closed;
   if (closed != was_closed) clutch_.push_back({closed, t});
@@ -115,9 +131,14 @@ std::optional<double> FollowMonitor::coarse_lag() const {
   return kMinLag_s + best * kLagStep_s;
 }
 
+FollowMonitor::Sample FollowMonitor::fine() const {
+  constexpr std::size_t kEnough = 100'000;
+  return {.every = 1 + follower_.size() / kEnough};
+}
+
 bool FollowMonitor::stands_out(double lag_s) const {
   const auto mean_square = [&](double lag) {
-    const Comparison there = compare(lag, {});
+    const Comparison there = compare(lag, fine());
     return there.squares / there.count;
   };
   constexpr double kMore = 1.2;  // a tenth more rms: far above what noise makes of it
@@ -136,7 +157,7 @@ Expected<double> FollowMonitor::best_lag() const {
   }
   double lag = *coarse;
   for (int i = 0; i < kMaxSteps; ++i) {
-    const Comparison here = compare(lag, {});
+    const Comparison here = compare(lag, fine());
     if (!(here.rates > 0)) break;
     // off grows by rate for every second that the way is taken later: least squares in that.
     const double next =
@@ -210,15 +231,6 @@ std::optional<double> FollowMonitor::closing_step_m() const {
     }
   }
   return longest;
-}
-
-std::optional<double> FollowMonitor::top_speed_m_s() const {
-  std::optional<double> fastest;
-  for (std::size_t i = 1; i < follower_.size(); ++i) {
-    const TrackPoint &a = follower_[i - 1], &b = follower_[i];
-    if (b.t > a.t) keep_largest(fastest, (b.position - a.position).norm() / (b.t - a.t));
-  }
-  return fastest;
 }
 
 }  // namespace armature::report::teleoperation

@@ -19,9 +19,9 @@ class FollowMonitor {
   explicit FollowMonitor(const Parameters& parameters) : parameters_{parameters} {}
 
   /// Where the hand means to be, where it is, and where the follower's tip is.
-  void see_intended(const TrackPoint& point) { intended_.push_back(point); }
-  void see_hand(const TrackPoint& point) { hand_.push_back(point); }
-  void see_follower(const TrackPoint& point) { follower_.push_back(point); }
+  void see_intended(const TrackPoint& point) { add(point, intended_); }
+  void see_hand(const TrackPoint& point) { add(point, hand_); }
+  void see_follower(const TrackPoint& point);
   /// Every change; open before the first.
   void see_clutch(bool closed, double t);
 
@@ -49,9 +49,12 @@ class FollowMonitor {
   std::optional<double> stopping_m() const;
   /// The longest step of the follower, from one point to the next, as the clutch closes.
   std::optional<double> closing_step_m() const;
-  std::optional<double> top_speed_m_s() const;
+  const std::optional<double>& top_speed_m_s() const { return top_speed_m_s_; }
 
  private:
+  /// Before the clutch was first closed only the last seconds are kept.
+  void add(const TrackPoint& point, Track& track) const;
+
   struct Stretch {
     double from, to;
   };
@@ -70,6 +73,8 @@ class FollowMonitor {
     double worst_m = 0;
   };
   Comparison compare(double lag_s, const Sample& sample) const;
+  /// All, or of a run of minutes so many that the search for the lag does not take as long.
+  Sample fine() const;
   /// The least rms of all lags may be one of several minima: a search first, then steps.
   std::optional<double> coarse_lag() const;
   Expected<double> best_lag() const;
@@ -84,6 +89,7 @@ class FollowMonitor {
     double t;
   };
   std::vector<ClutchChange> clutch_;
+  std::optional<double> top_speed_m_s_;
 };
 
 }  // namespace armature::report::teleoperation

@@ -147,6 +147,26 @@ TEST(FollowMonitor, SeesAJumpWhenTheClutchCloses) {
   EXPECT_NEAR(*later.closing_step_m(), 1e-5, 1e-9);
 }
 
+TEST(FollowMonitor, ARunThatBeganLongBeforeTheClutchClosedIsJudgedAsAnyOther) {
+  const auto follower = [](double t) { return Vector3d{0.5 * curve(t - 0.05) + shaking(t, 1e-5)}; };
+  const auto watched_from = [&](int begin) {
+    FollowMonitor monitor{{.scale = 0.5, .lag = 1}};
+    for (int k = begin; k * kSample < 8; ++k) {
+      const double t = k * kSample;
+      monitor.see_intended({t, curve(t)});
+      monitor.see_hand({t, curve(t) + shaking(t, 2e-4)});
+      monitor.see_follower({t, follower(t)});
+      monitor.see_clutch(t >= 1, t);
+    }
+    return monitor;
+  };
+  const auto waited = watched_from(-100'000), came_at_once = watched_from(-1'000);
+  EXPECT_NEAR(waited.following()->rms_m, came_at_once.following()->rms_m, 1e-12);
+  EXPECT_NEAR(*waited.following()->lag_s, *came_at_once.following()->lag_s, 1e-6);
+  EXPECT_NEAR(waited.tremor()->left_db, came_at_once.tremor()->left_db, 1e-6);
+  EXPECT_EQ(*waited.closing_step_m(), *came_at_once.closing_step_m());
+}
+
 TEST(FollowMonitor, TellsTheTopSpeedOfTheWholeRun) {
   const auto monitor = watched(curve, curve, [](double t) {
     return Vector3d{0, 0.05 * std::min(t, 0.5), 0};

@@ -28,10 +28,14 @@ void CalibrationRun::arrive(Time now) {
   watch_.begin(now);
 }
 
-void CalibrationRun::see(const Sighting& sighting, const Eigen::Isometry3d& base_T_flange) {
+void CalibrationRun::see(const Sighting& sighting, const Eigen::Isometry3d& base_T_flange,
+                         const Stillness& still) {
   if (!arrived_ || sighting.stamp < *arrived_) return;
-  const bool moved = has_moved(base_T_flange_, base_T_flange);
+  const bool moved = still.is_left(base_T_flange_, base_T_flange);
   if (!watch_.see(sighting, !moved)) return;
+  if (moved && sighting.stamp - *arrived_ > kRestsWithin) {
+    return leave_out(restless(base_T_flange_, base_T_flange));
+  }
   if (average_.count() == 0 || moved) {
     average_.clear();
     base_T_flange_ = base_T_flange;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "arm_rest.hpp"
 #include "armature/calibration/hand_eye.hpp"
 #include "armature/robot/geometry/pose_goal.hpp"
 #include "armature/robot/model/robot_model.hpp"
@@ -15,7 +16,8 @@
 namespace armature::task::implant {
 
 /// The arm goes from pose to pose; at each the tracker's samples of the body on its flange are
-/// averaged. A pose that the arm cannot reach, or at which the body is not seen, is left out.
+/// averaged. A pose that the arm cannot reach, at which it does not stand still, or at which the
+/// body is not seen, is left out.
 class CalibrationRun {
  public:
   CalibrationRun(const Parameters& parameters, const RobotModel& robot);
@@ -29,8 +31,9 @@ class CalibrationRun {
   void arrive(Time now);
   /// The arm cannot go there.
   void leave_out(const std::string& why);
-  /// With where the flange is as the arm says.
-  void see(const Sighting& sighting, const Eigen::Isometry3d& base_T_flange);
+  /// With where the flange is as the arm says, and how still one is that stands.
+  void see(const Sighting& sighting, const Eigen::Isometry3d& base_T_flange,
+           const Stillness& still);
   void update(Time now);
 
   const std::vector<HandEyePose>& poses() const { return poses_; }

@@ -8,8 +8,9 @@
 
 namespace armature::task::implant {
 
-void FlangePlace::see(const Sighting& sighting, const Eigen::Isometry3d& base_T_flange, Time now) {
-  if (has_moved(base_T_flange_, base_T_flange)) {
+void FlangePlace::see(const Sighting& sighting, const Eigen::Isometry3d& base_T_flange, Time now,
+                      const Stillness& still) {
+  if (still.is_left(base_T_flange_, base_T_flange)) {
     average_.clear();
     still_since_ = now;
     base_T_flange_ = base_T_flange;

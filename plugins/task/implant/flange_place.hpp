@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "arm_rest.hpp"
 #include "armature/calibration/hand_eye.hpp"
 #include "pose_average.hpp"
 #include "sighting.hpp"
@@ -23,9 +24,11 @@ class FlangePlace {
   void calibrate(const HandEye& hand_eye) { hand_eye_ = hand_eye; }
   /// Once more from the first sample.
   void forget() { average_.clear(); }
-  /// With where the flange is as the arm says at `now`. Samples count while the arm stands still:
-  /// one whose light is older than the arm's rest may show another place.
-  void see(const Sighting& sighting, const Eigen::Isometry3d& base_T_flange, Time now);
+  /// With where the flange is as the arm says at `now`, and how still one is that stands. Samples
+  /// count while the arm stands still: one whose light is older than the arm's rest may show
+  /// another place.
+  void see(const Sighting& sighting, const Eigen::Isometry3d& base_T_flange, Time now,
+           const Stillness& still);
   /// That were seen since the arm stands still.
   int samples() const { return average_.count(); }
   /// Where the body is by arm and calibration.

@@ -12,7 +12,8 @@ using Eigen::Isometry3d;
 
 namespace {
 
-constexpr int kFlangeSamples = 10;  // as of the jaw: one by itself errs too much at the tip
+constexpr int kFlangeSamples = 10;          // as of the jaw: one by itself errs too much at the tip
+constexpr Duration kRested = seconds(1.0);  // since then it is another motion
 
 }  // namespace
 
@@ -62,15 +63,22 @@ void Guidance::see_driver_in_hand(const Sighting& sighting) {
 Expected<void> Guidance::see_flange(const Sighting& sighting,
                                     const std::optional<Isometry3d>& base_T_flange, bool must_agree,
                                     Time now) {
-  const bool rests = !base_T_flange || !has_moved(flange_seen_at_, *base_T_flange);
-  if (base_T_flange && !rests) flange_seen_at_ = *base_T_flange;
+  const Stillness still = arm_noise_.stillness();
+  const bool rests = !base_T_flange || !still.is_left(flange_seen_at_, *base_T_flange);
+  if (!rests) {
+    if (now - std::exchange(moved_at_, now) > kRested) restless_since_ = now;
+    const Isometry3d from = std::exchange(flange_seen_at_, *base_T_flange);
+    if (step_ == Step::place && now - restless_since_ > kRestsWithin) {
+      return refuse(restless(from, flange_seen_at_));
+    }
+  }
   const bool anew = flange_watch_.see(sighting, rests);
   if (!base_T_flange) return {};
-  if (step_ == Step::hand_eye) calibration_.see(sighting, *base_T_flange);
+  if (step_ == Step::hand_eye) calibration_.see(sighting, *base_T_flange, still);
   if (!anew) return {};
-  if (step_ == Step::place) flange_.see(sighting, *base_T_flange, now);
+  if (step_ == Step::place) flange_.see(sighting, *base_T_flange, now, still);
   if (step_ != Step::complete || !must_agree) return {};
-  flange_.see(sighting, *base_T_flange, now);
+  flange_.see(sighting, *base_T_flange, now, still);
   if (flange_.samples() < kFlangeSamples) return {};
   const auto agrees = check_flange(false);
   flange_.forget();
@@ -125,6 +133,7 @@ Expected<void> Guidance::see_registration(const RegisteredJaw& jaw, Time now) {
   jaw_.locate(std::move(ends));
   flange_.forget();
   begin_to_guard(now);
+  restless_since_ = now;
   step_ = Step::place;
   return {};
 }

@@ -43,6 +43,8 @@ class Guidance {
   /// after the first changes nothing.
   Expected<void> see_plan(const std::vector<ToolPose>& sites,
                           const std::vector<PlannedImplant>& implants);
+  /// Every sample of the arm.
+  void see_arm(const Eigen::Isometry3d& base_T_flange) { arm_noise_.see(base_T_flange); }
   /// A handpiece tells how far it turns.
   void see_handpiece() { has_handpiece_ = true; }
   void see_drill_in_hand(const Sighting& sighting);
@@ -100,6 +102,8 @@ class Guidance {
   CalibrationRun calibration_;
   BodyWatch flange_watch_, jaw_watch_;
   Eigen::Isometry3d flange_seen_at_ = Eigen::Isometry3d::Identity();  // by the arm, since it rests
+  ArmNoise arm_noise_;
+  Time moved_at_, restless_since_;  // the arm, by its own measurement
   bool has_handpiece_ = false;
   std::vector<Eigen::Isometry3d> sites_;
   std::vector<PlannedImplant> implants_;

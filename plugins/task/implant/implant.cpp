@@ -40,6 +40,7 @@ void Implant::see_plan(const std::vector<ToolPose>& sites,
 
 void Implant::see_arm(const Isometry3d& base_T_flange) {
   base_T_flange_ = base_T_flange;
+  guidance_.see_arm(base_T_flange);
   if (at_sites()) rounds_[round_].bottoms.see(base_T_flange);
 }
 

@@ -61,7 +61,7 @@ class ImplantTest : public testing::Test {
   /// 20 ms; what the arm was told before is done.
   void step() {
     now_s_ += 0.02;
-    task_.see_arm(base_T_flange_);
+    task_.see_arm(measured_flange());
     if (handpiece_) task_.see_handpiece(turn_handpiece(), now());
     if (done_) task_.hear({.goal_id = done_, .state = Report::done}, now());
     if (see_drill_) task_.see_drill_in_hand(in_hand(chain_.tip));
@@ -73,6 +73,12 @@ class ImplantTest : public testing::Test {
     }
     task_.update(now());
     if (const auto goal = task_.outgoing_goal(now())) drive(*goal);
+  }
+  Isometry3d measured_flange() {
+    if (arm_noise_m_ == 0) return base_T_flange_;
+    std::normal_distribution<double> normal{0, arm_noise_m_};
+    return Eigen::Translation3d{normal(arm_random_), normal(arm_random_), normal(arm_random_)} *
+           base_T_flange_;
   }
   Sighting in_hand(const Vector3d& tip) const {
     const double turn = 7 * now_s_;
@@ -156,8 +162,8 @@ class ImplantTest : public testing::Test {
   GuidedChain chain_;
   const Vector3d driver_tip_{0.012, 0.018, 0.085};
   std::vector<ToolPose> sites_;
-  double now_s_ = 100, jitter_m_ = 0, short_m_ = 0;
-  std::mt19937 random_{5}, jaw_random_{6};
+  double now_s_ = 100, jitter_m_ = 0, short_m_ = 0, arm_noise_m_ = 0;
+  std::mt19937 random_{5}, jaw_random_{6}, arm_random_{7};
   bool frozen_ = false;  // the tracker tells its last poses again, with new stamps
   int times_ = 1;        // that every sample of the jaw is told
   Isometry3d seen_flange_ = Isometry3d::Identity(), seen_jaw_ = Isometry3d::Identity();

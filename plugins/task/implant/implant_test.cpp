@@ -333,5 +333,35 @@ TEST_F(ImplantTest, AStopWhileItCalibratesEndsItThoughThePosesThatItHasWouldDo) 
   EXPECT_EQ(goals_.size(), 7u) << "or the arm would move once it is rearmed";
 }
 
+TEST_F(ImplantTest, AnArmWhoseEncodersScatterIsCalibratedAndLocated) {
+  arm_noise_m_ = 2e-5;  // along each axis
+  begin();
+  go_to(Phase::drilled);
+}
+
+TEST_F(ImplantTest, AnArmThatNeverStandsStillIsSaidAndNotWaitedFor) {
+  arm_noise_m_ = 1e-3;
+  begin();
+  for (int i = 0; i < 2000 && !task_.procedure().over(); ++i) step();
+  EXPECT_EQ(task_.phase(), Phase::refused);
+  EXPECT_NE(task_.trouble().find("hand-eye: 5 of 8 poses at most"), std::string::npos)
+      << task_.trouble();
+  EXPECT_NE(task_.trouble().find("the arm does not stand still within 5 s"), std::string::npos)
+      << task_.trouble();
+}
+
+TEST_F(ImplantTest, AnArmThatDoesNotStandStillWhileTheJawIsLocatedIsSaid) {
+  begin();
+  go_to(Phase::registering);
+  arm_noise_m_ = 1e-3;
+  for (int i = 0; i < 500 && !task_.procedure().over(); ++i) {
+    step();
+    if (task_.wants_registration()) task_.see_registration(registered(), now());
+  }
+  EXPECT_EQ(task_.phase(), Phase::refused);
+  EXPECT_EQ(task_.trouble().substr(0, 39), "the arm does not stand still within 5 s")
+      << task_.trouble();
+}
+
 }  // namespace
 }  // namespace armature::task::implant

@@ -8,12 +8,6 @@ namespace armature::task::implant {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-bool has_moved(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to) {
-  constexpr double kStill = 2e-5, kStillRad = 1e-4;  // [m], [rad]
-  const Eigen::Isometry3d way = from.inverse() * to;
-  return way.translation().norm() > kStill || Eigen::AngleAxisd{way.linear()}.angle() > kStillRad;
-}
-
 Eigen::Isometry3d PoseAverage::mean() const {
   Matrix3d rotations = Matrix3d::Zero();
   Vector3d positions = Vector3d::Zero();

@@ -8,10 +8,6 @@
 
 namespace armature::task::implant {
 
-/// Whether an arm has moved between two places of its flange by more than one that stands still
-/// shows: 0.02 mm or 0.1 mrad.
-bool has_moved(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to);
-
 /// Of a body that stands still, seen many times.
 class PoseAverage {
  public:

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/pose_messages.hpp"
@@ -32,6 +33,12 @@ constexpr double kMoves_m = 1e-4;              // more than the noise of a tip t
 constexpr Duration kRested = seconds(0.1);     // since the last motion
 constexpr Duration kLongestRamp = seconds(3);  // an arm in a hand need not rest
 
+/// Whether a task that was given this plan asks that.
+bool is_asked_of(const msg::NeedlePlan& plan, const msg::RegistrationRequest& request) {
+  return plan.markers_() == request.image_markers_() &&
+         request.targets_() == std::vector{plan.target_(), plan.entry_()};
+}
+
 }  // namespace
 
 class BiopsyReport final : public Component {
@@ -47,6 +54,7 @@ class BiopsyReport final : public Component {
 
   void step(Time now) override {
     if (!start_) start_ = now;
+    read_plan();
     registration_.listen([&](const msg::RegistrationResponse& response) { read(response); });
     for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) read(ports_.measured_js[i], now);
     for (std::size_t i = 0; i < ports_.task_state.size(); ++i) read(ports_.task_state[i], now);
@@ -98,25 +106,32 @@ class BiopsyReport final : public Component {
          radius_of_999_in_1000(needle.error_rms_m, needle.error_95_m));
   }
 
+  /// The plan that the task goes by is the one that it asked the registration of: it goes on with
+  /// that when another one comes.
+  void read_plan() {
+    if (!ports_.plan.latest() || !ports_.request.latest()) return;
+    if (is_asked_of(*ports_.plan.latest(), *ports_.request.latest())) plan_ = *ports_.plan.latest();
+  }
+
   /// None until the task said that the needle is there.
   std::optional<double> target_error_m() const {
-    if (!tip_at_target_ || !ports_.plan.latest() || !ports_.truth.latest()) return {};
+    if (!tip_at_target_ || !plan_ || !ports_.truth.latest()) return {};
     const auto robot_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
     if (!robot_T_image) return {};
-    return (*tip_at_target_ - *robot_T_image * to_eigen(ports_.plan.latest()->target_())).norm();
+    return (*tip_at_target_ - *robot_T_image * to_eigen(plan_->target_())).norm();
   }
 
   /// Rms distance of the touched places to the true markers that they are nearest to; none when
   /// nothing was touched.
   std::optional<double> touch_error_m() const {
     if (!ports_.touched.latest() || ports_.touched.latest()->points_().empty()) return {};
-    if (!ports_.plan.latest() || !ports_.truth.latest()) return {};
+    if (!plan_ || !ports_.truth.latest()) return {};
     const auto robot_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
     if (!robot_T_image) return {};
     double squares = 0;
     for (const msg::Point& place : ports_.touched.latest()->points_()) {
       double nearest = std::numeric_limits<double>::infinity();
-      for (const msg::Point& marker : ports_.plan.latest()->markers_()) {
+      for (const msg::Point& marker : plan_->markers_()) {
         const Eigen::Vector3d off = to_eigen(place) - *robot_T_image * to_eigen(marker);
         nearest = std::min(nearest, off.squaredNorm());
       }
@@ -171,6 +186,7 @@ class BiopsyReport final : public Component {
   RobotModel robot_;
   Eigen::Vector3d needle_axis_;
   InsertionMonitor monitor_;
+  std::optional<msg::NeedlePlan> plan_;
   std::optional<Time> start_;
   std::optional<Eigen::Vector3d> tip_at_target_;
   std::optional<Eigen::Vector3d> rested_at_;  // the tip, when it moved last

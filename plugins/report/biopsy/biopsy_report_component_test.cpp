@@ -31,6 +31,7 @@ class BiopsyReportTest : public testing::Test {
     report_.send("truth", truth);
     msg::RegistrationRequest request;
     request.request_id_(7);
+    request.targets_() = {plan.target_(), plan.entry_()};
     report_.send("request", request);
     answer(7);
     answer(8, 10);  // to somebody else
@@ -100,6 +101,19 @@ TEST_F(BiopsyReportTest, TellsTheErrorsAgainstTruthAndExpectation) {
   EXPECT_FALSE(told.metrics.contains("line_deviation_mm")) << "it did not come by the entry";
 }
 
+TEST_F(BiopsyReportTest, MeasuresAgainstThePlanThatWasRegisteredWhenAnotherOneComes) {
+  show_head();
+  move_arm();
+  tell("insertion");
+  report_.step(1);
+  msg::NeedlePlan other;
+  assign(other.target_(), Eigen::Vector3d{0.02, 0, -0.03});
+  report_.send("plan", other);
+  tell("at target");
+  report_.step(2);
+  EXPECT_NEAR(report_.figures().metrics.at("target_error_mm"), 0.4, 1e-9);
+}
+
 TEST_F(BiopsyReportTest, OfAnErrorThatNobodyExpectsNothingIsAPart) {
   show_head();
   answer(7, 0);
@@ -117,6 +131,10 @@ TEST_F(BiopsyReportTest, TellsHowFarOffTheMarkersTouchesWere) {
     assign(plan.markers_().emplace_back(), Eigen::Vector3d{x, 0, 0});
   }
   report_.send("plan", plan);
+  msg::RegistrationRequest request;
+  request.image_markers_() = plan.markers_();
+  request.targets_() = {plan.target_(), plan.entry_()};
+  report_.send("request", request);
   msg::TransformStamped truth;
   assign(truth.transform_(), Eigen::Isometry3d::Identity());
   report_.send("truth", truth);

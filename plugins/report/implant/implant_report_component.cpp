@@ -97,8 +97,13 @@ class ImplantReport final : public Component {
 
  private:
   void tell_drilling(Summary& summary) const {
-    summary.metric("time_to_drilled_s", "time until all sites are drilled [s]",
-                   to_seconds(*drilled_at_ - *start_));
+    constexpr const char *kTime = "time_to_drilled_s",
+                         *kTimeTitle = "time until all sites are drilled [s]";
+    if (drilled_at_) {
+      summary.metric(kTime, kTimeTitle, to_seconds(*drilled_at_ - *start_));
+    } else {
+      summary.not_measured(kTime, kTimeTitle, "they were drilled before this report began");
+    }
     if (const std::string why = without_errors(bores_, "drill"); !why.empty()) {
       summary.not_measured("site_error_mm", "error of the tip at the worst site [mm]", why);
     } else if (bores_) {
@@ -218,9 +223,9 @@ class ImplantReport final : public Component {
   void read(const msg::TaskState& state, Time now) {
     state_ = state.state_();
     trouble_ = state.detail_();
+    if (state_ == "changing tool" || state_ == "placing") has_driver_ = true;
     const bool out = state_ == "withdrawing" || state_ == "drilled";
-    if (out && !drilled_at_) drilled_at_ = now;
-    if (state_ == "changing tool") has_driver_ = true;
+    if (out && !drilled_at_ && !has_driver_) drilled_at_ = now;
     const bool ended =
         state_ == "drilled" || state_ == "placed" || state_ == "aborted" || state_ == "refused";
     if (ended && !ended_at_) ended_at_ = now;

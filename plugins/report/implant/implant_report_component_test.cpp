@@ -403,5 +403,25 @@ TEST_F(ImplantReportTest, ASampleThatIsNoPositionAndAChainThatIsNoneAreSaid) {
   EXPECT_EQ(report_.status().reason.substr(0, 22), "truth: no transform fr");
 }
 
+TEST_F(ImplantReportTest, OfAReportThatBeginsLateTheTimeOfTheDrillingIsNotMeasured) {
+  has_implants_ = true;
+  for (const std::string before : {"", "placing", "withdrawing"}) {
+    SCOPED_TRACE(before);
+    ComponentHarness late{built_plugins(),
+                          {.component = "{plugin: report/implant}",
+                           .robot = config::load(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml")}};
+    for (const std::string& state : {before, std::string{"placed"}}) {
+      if (state.empty()) continue;
+      msg::TaskState message;
+      message.state_() = state;
+      late.send("task_state", message);
+      late.step(state == "placed" ? 2 : 1);
+    }
+    const bool saw_it_end = before == "withdrawing";
+    EXPECT_EQ(late.figures().metrics.contains("time_to_drilled_s"), saw_it_end);
+    EXPECT_EQ(late.figures().unmeasured.contains("time_to_drilled_s"), !saw_it_end);
+  }
+}
+
 }  // namespace
 }  // namespace armature::report::implant

@@ -120,7 +120,7 @@ Expected<Ways::Drive> Ways::gone_on(const Drive& drive, bool back, bool stepwise
     return refuse(back ? "the arm stands where its way began" : "nothing is left of the way");
   }
   const double stop_s = next_rest_s(way, next.from_s);
-  next.to_s = goes_on ? drive.aims_s : stepwise ? stop_s : way.duration_s();
+  next.to_s = !stepwise ? way.duration_s() : goes_on ? drive.aims_s : stop_s;
   next.aims_s = next.to_s;
   if (!rests(way, next.to_s)) return refuse("the way began while the arm moved");
   if (rests(way, next.from_s)) {

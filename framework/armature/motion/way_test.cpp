@@ -110,6 +110,14 @@ TEST_F(WaysTest, ItIsGoneBackStopByStopAndOnAgain) {
   EXPECT_EQ(refusal(MotionMode::retrace), "the arm stands where its way began");
 }
 
+TEST_F(WaysTest, PausedOnItsWayToAStopItIsGoneBackAllOfTheWayWhereItIsAskedTo) {
+  begin(false);
+  drive(*ask(MotionMode::retrace), 0.5);  // from stop 3 to stop 2
+  drive(*ask(MotionMode::pause));
+  drive(*ask(MotionMode::retrace, false));
+  expect_at(0, 0);
+}
+
 TEST_F(WaysTest, PausedAnywhereAndAsOftenAsOneLikesItComesToItsStops) {
   std::mt19937 random{3};
   SCOPED_TRACE("seed 3");

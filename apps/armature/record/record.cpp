@@ -50,10 +50,11 @@ class Topics {
         if (std::ranges::find(again, topic.name) != again.end()) {
           watched->second = topic.endpoints.front();
           told_unheard_.erase(name);
-          fmt::print(stderr,
-                     "armature: {} came back with another type or less QoS: it is recorded anew "
-                     "from here on, and what was sent before that is missing\n",
-                     config::in_quotes(name));
+          fmt::print(
+              stderr,
+              "armature: {} is written with another type or less QoS now: it is recorded anew "
+              "from here on, and what was sent before that is missing\n",
+              config::in_quotes(name));
         }
         tell_unheard(name, unheard_writers(topic, watched->second));
         continue;

@@ -242,6 +242,7 @@ void FoxgloveBridge::look() {
   Json gone = Json::array();
   for (TopicSource::Topic& topic : topics_.topics()) {
     const auto known = by_topic_.find(topic.name);
+    if (known != by_topic_.end() && there.contains(known->second)) continue;  // of two the first
     if (known != by_topic_.end() && channels_.at(known->second).topic.type != topic.type) {
       gone.push_back(known->second);
       forget(known->second);

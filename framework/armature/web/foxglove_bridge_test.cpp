@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <cstdint>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -25,8 +27,11 @@ using nlohmann::json;
 class OneTopic final : public TopicSource {
  public:
   std::vector<Topic> topics() const override {
+    ++looks_;
     if (!is_there_) return {};
-    return {{.name = "/light", .type = type_.load(), .keeps = 100}};
+    std::vector<Topic> topics{{.name = "/light", .type = type_.load(), .keeps = 100}};
+    if (is_there_twice_) topics.push_back({.name = "/light", .type = "Colour"});
+    return topics;
   }
   Schema schema_of(const Topic&) const override { return {"lamp/msg/Light", "float64 lux"}; }
   bool watch(const std::string&, OnMessage on_message) override {
@@ -41,16 +46,25 @@ class OneTopic final : public TopicSource {
 
   void be_of_type(const char* type) { type_ = type; }
   void be_there(bool is_there) { is_there_ = is_there; }
+  void be_there_twice() { is_there_twice_ = true; }
+  /// Returns when the topics have been asked for twice more.
+  void wait_for_looks() const {
+    const int last = looks_ + 2;
+    while (looks_ < last) std::this_thread::sleep_for(std::chrono::milliseconds{10});
+  }
 
-  bool write(const std::string& text) {
+  bool write(const std::string& text, std::uint64_t lost_before = 0) {
     const std::scoped_lock lock{mutex_};
     if (!on_message_) return false;
-    on_message_({.time = Time{1}, .cdr = std::as_bytes(std::span{text})});
+    on_message_(
+        {.time = Time{1}, .cdr = std::as_bytes(std::span{text}), .lost_before = lost_before});
     return true;
   }
 
  private:
+  mutable std::atomic<int> looks_{0};
   std::atomic<bool> is_there_{true};
+  std::atomic<bool> is_there_twice_{false};
   std::atomic<const char*> type_{"Light"};
   std::mutex mutex_;
   OnMessage on_message_;
@@ -204,6 +218,20 @@ TEST_F(FoxgloveBridgeTest, KeepsOfATopicNoMoreThan16MBForThoseWhoComeLater) {
   later.send_text(subscribing.dump());
   EXPECT_EQ(next_of(later), "b");
   EXPECT_EQ(next_of(later), "c");
+}
+
+TEST_F(FoxgloveBridgeTest, OffersTheFirstOfTwoTopicsOfOneName) {
+  topic_.be_there_twice();
+  topic_.wait_for_looks();
+  EXPECT_EQ(answer_to(R"({"op": "end"})"), "'end' is not done here: a monitor only shows")
+      << "nothing was told of the second";
+  topic_.be_there(false);
+  EXPECT_EQ(told(), (json{{"op", "unadvertise"}, {"channelIds", {channel_}}}));
+  topic_.be_there(true);
+  const json came = told();
+  ASSERT_EQ(came["channels"].size(), 1U);
+  EXPECT_EQ(came["channels"][0]["id"], channel_ + 1);
+  EXPECT_EQ(answer_to(R"({"op": "end"})"), "'end' is not done here: a monitor only shows");
 }
 
 TEST_F(FoxgloveBridgeTest, OffersATopicAnewThatHasAnotherType) {

@@ -121,7 +121,7 @@ class Observer final : public DdsObserver {
       if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
     };
     const Discovery& discovery = participant_->discovery();
-    auto endpoints = discovery.endpoints();
+    auto endpoints = named_endpoints();
     std::ranges::stable_sort(endpoints, {}, place);
     for (const Endpoint& endpoint : endpoints) {
       ObservedTopic& topic = by_name[endpoint.topic];
@@ -153,12 +153,14 @@ class Observer final : public DdsObserver {
   }
 
   std::vector<std::string> watch_again() override {
-    const auto endpoints = participant_->discovery().endpoints();
+    const auto endpoints = named_endpoints();
     const auto hears = [&](const auto& watch) {
+      const auto first = first_writer(endpoints, watch->topic());
       const auto is_heard = [&](const Endpoint& endpoint) {
-        return endpoint.topic == watch->topic() && endpoint.writes && watch->hears(endpoint);
+        return endpoint.topic == watch->topic() && place(endpoint) == place(*first) &&
+               watch->hears(endpoint);
       };
-      return std::ranges::any_of(endpoints, is_heard) || !first_writer(endpoints, watch->topic());
+      return !first || std::ranges::any_of(endpoints, is_heard);
     };
     const auto first_deaf = std::stable_partition(watches_.begin(), watches_.end(), hears);
     const std::vector<std::unique_ptr<Watch>> deaf{std::move_iterator{first_deaf},
@@ -176,6 +178,14 @@ class Observer final : public DdsObserver {
   }
 
  private:
+  /// Those of topics that have a name of their own here: "/a" is the name of "rt/a" for ROS 2, and
+  /// the DDS topic "/a" would pass for that.
+  std::vector<Endpoint> named_endpoints() const {
+    auto endpoints = participant_->discovery().endpoints();
+    std::erase_if(endpoints, [](const Endpoint& one) { return one.topic.starts_with('/'); });
+    return endpoints;
+  }
+
   Expected<void> watch(const std::string& asked, Endpoint writer, OnSample on_sample) {
     const auto dds_topic = participant_->topic(writer.topic, writer.type);
     if (!dds_topic) return tl::unexpected{dds_topic.error()};
@@ -215,7 +225,7 @@ class Observer final : public DdsObserver {
   std::optional<Endpoint> wait_for_writer(const std::string& asked, Duration timeout) const {
     const auto deadline = std::chrono::steady_clock::now() + timeout;
     do {
-      const auto endpoints = participant_->discovery().endpoints();
+      const auto endpoints = named_endpoints();
       for (const std::string& topic : {asked, dds_topic_name(asked)}) {
         if (auto first = first_writer(endpoints, topic)) return first;
       }

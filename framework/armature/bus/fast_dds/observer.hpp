@@ -65,7 +65,8 @@ class DdsObserver {
   static Expected<std::unique_ptr<DdsObserver>> make(const ObserverOptions& options);
   virtual ~DdsObserver() = default;
 
-  /// What has been discovered so far, sorted by name; complete about a second after make().
+  /// What has been discovered so far, sorted by name; complete about a second after make(). A topic
+  /// whose name begins with '/' in DDS is none: that is how ROS 2 calls another one.
   virtual std::vector<ObservedTopic> topics() const = 0;
 
   /// Waits until `topic` has a writer (at most `timeout`), then calls `on_sample` on a DDS thread,
@@ -78,9 +79,10 @@ class DdsObserver {
   /// Takes the name that was watched. No sample of it is handed on when this has returned. Not from
   /// `on_sample`.
   virtual void unwatch(const std::string& topic) = 0;
-  /// Makes the reader of each watched topic anew that has writers and hears none of them, as after
-  /// a restart with another type or less QoS, as `watch` would make it now. Tells the DDS names of
-  /// these topics. Not from `on_sample`.
+  /// Makes the reader of each watched topic anew, as `watch` would make it now, that hears none of
+  /// the writers that it would be made for: they came back with another type or less QoS, or the
+  /// deployment that has the topic came after another program. Tells the DDS names of these topics.
+  /// Not from `on_sample`.
   virtual std::vector<std::string> watch_again() = 0;
 };
 

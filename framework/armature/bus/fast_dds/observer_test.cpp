@@ -2,7 +2,9 @@
 // The observer sees and reads what it has no code for.
 #include "armature/bus/fast_dds/observer.hpp"
 
+#include <algorithm>
 #include <atomic>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
@@ -109,6 +111,61 @@ TEST_F(FastDds, AWatchedTopicThatComesBackWithLessQosOrAnotherTypeIsWatchedAgain
   EXPECT_TRUE(offered(*other, images));
   observer->unwatch("/test/to_peer");
   EXPECT_TRUE(eventually([&] { return other->matched_readers() == 0; }));
+}
+
+TEST_F(FastDds, AWatchedTopicIsReadLikeTheDeploymentThatHasItAsSoonAsThatWritesIt) {
+  const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
+  const auto stranger = make_transport();
+  const auto early = stranger->advertise({"rt/test/to_peer", &type_, QosProfile::state}).value();
+  std::mutex mutex;
+  std::string read;  // the type of the last sample
+  ASSERT_TRUE(observer->watch("/test/to_peer", seconds(30), [&](const ObservedSample& seen) {
+    const std::scoped_lock lock{mutex};
+    read = seen.type;
+  }));
+  const MessageType& image = message_type<msg::Image>();
+  SamplePool images{image, 16};
+  const auto transport = FastDdsTransport::make({.network = {.domain = domain_},
+                                                 .deployment = "test",
+                                                 .fingerprint = "f00d",
+                                                 .now = system_now})
+                             .value();
+  const auto own = transport->advertise({"rt/test/to_peer", &image, QosProfile::state}).value();
+  std::vector<std::string> again;
+  EXPECT_TRUE(eventually([&] { return !(again = observer->watch_again()).empty(); }));
+  EXPECT_EQ(again, std::vector<std::string>{"rt/test/to_peer"});
+  EXPECT_TRUE(eventually([&] {
+    own->offer(images.loan());
+    const std::scoped_lock lock{mutex};
+    return read == image.dds_name;
+  }));
+  EXPECT_TRUE(observer->watch_again().empty()) << "though the stranger is still there";
+}
+
+TEST_F(FastDds, ATopicWithASlashInFrontIsNotTakenForTheOneOfRosOfThatName) {
+  const auto transport = make_transport();
+  const auto other = transport->advertise({"/test/to_peer", &type_, QosProfile::state}).value();
+  const auto writer = transport->advertise(to_peer_).value();
+  const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
+  const auto is_seen = [&](const char* name) {
+    return std::ranges::count(observer->topics(), name, &ObservedTopic::name) == 1;
+  };
+  ASSERT_TRUE(eventually([&] { return is_seen("rt/test/to_peer"); }));
+  std::mutex mutex;
+  std::vector<std::string> shown;
+  ASSERT_TRUE(observer->watch("/test/to_peer", seconds(30), [&](const ObservedSample& seen) {
+    const std::scoped_lock lock{mutex};
+    shown.push_back(cdr_to_json(*describe_type(seen.type), seen.cdr)->at("position").dump());
+  }));
+  ASSERT_TRUE(eventually([&] {
+    other->offer(sample(1));
+    writer->offer(sample(2.5));
+    const std::scoped_lock lock{mutex};
+    return shown.size() > 10;
+  }));
+  const std::scoped_lock lock{mutex};
+  EXPECT_EQ(std::ranges::count(shown, "[2.5,-2.5]"), std::ssize(shown));
+  EXPECT_FALSE(is_seen("/test/to_peer")) << "both would have the same name";
 }
 
 TEST_F(FastDds, ATopicOfAnotherProgramIsReadByTheNameThatItHasInDds) {

@@ -184,6 +184,7 @@ void FoxgloveBridge::said_binary(Client client, std::string_view message) {
   }
   const auto control = read_playback_control(message);
   if (!control) return send_error(client, control.error().text);
+  forward();  // what came before a jump is told before it
   if (options_.playback->request(control->request)) {
     tell_jump(client, control->id);
   } else {
@@ -325,11 +326,16 @@ void FoxgloveBridge::watch(Channel& channel) {
 
 void FoxgloveBridge::forward() {
   std::deque<std::pair<std::uint32_t, Message>> messages;
+  std::uint64_t lost = 0;
   {
     const std::scoped_lock lock{mutex_};
     messages = std::exchange(arrived_, {});
     arrived_bytes_ = 0;
-    dropped_ += std::exchange(arrived_dropped_, 0);
+    lost = std::exchange(arrived_dropped_, 0);
+  }
+  dropped_ += lost;
+  for (auto& [client, subscriber] : clients_) {
+    if (!subscriber.channels.empty()) subscriber.lost += lost;
   }
   for (const auto& [id, message] : messages) {
     const auto place = channels_.find(id);
@@ -360,6 +366,7 @@ void FoxgloveBridge::send_error(Client client, const std::string& why) {
 
 Duration FoxgloveBridge::play() {
   Playback& playback = *options_.playback;
+  forward();
   const Playback::State before = playback.state();
   const Playback::Advance advance = playback.advance();
   const Playback::State after = playback.state();
@@ -400,14 +407,16 @@ void FoxgloveBridge::tell_refusal(const WebServer::Refusal& refusal) {
 
 void FoxgloveBridge::tell_dropped() {
   for (auto& [client, subscriber] : clients_) {
-    const std::uint64_t dropped = server_.dropped(client);
     // Who has not read what it was told last is told all of it later.
-    if (dropped == subscriber.told_dropped || server_.is_behind(client)) continue;
-    server_.send(client,
-                 status(kWarning, fmt::format("{} messages were dropped: they came faster than "
-                                              "this client reads",
-                                              dropped - subscriber.told_dropped)));
-    subscriber.told_dropped = dropped;
+    if (server_.is_behind(client)) continue;
+    const auto warn = [&, to = client](std::uint64_t count, std::string_view how) {
+      if (count > 0)
+        server_.send(to, status(kWarning, fmt::format("{} messages were {}", count, how)));
+    };
+    const std::uint64_t dropped = server_.dropped(client);
+    warn(dropped - std::exchange(subscriber.told_dropped, dropped),
+         "dropped: they came faster than this client reads");
+    warn(std::exchange(subscriber.lost, 0), "lost on the way to the bridge");
   }
 }
 

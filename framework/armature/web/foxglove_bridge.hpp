@@ -66,6 +66,7 @@ class FoxgloveBridge {
     std::map<std::uint32_t, std::uint32_t> channels;  // by the client's number of the subscription
     std::map<std::uint32_t, std::uint32_t> subscriptions;  // the other way round: one of a channel
     std::uint64_t told_dropped = 0;
+    std::uint64_t lost = 0;  // of all that is read, since it was told of that
   };
 
   WebServer::Events events();

@@ -24,7 +24,7 @@ namespace {
 using nlohmann::json;
 
 /// One topic, whose messages the test writes.
-class OneTopic final : public TopicSource {
+class OneTopic : public TopicSource {
  public:
   std::vector<Topic> topics() const override {
     ++looks_;
@@ -69,6 +69,60 @@ class OneTopic final : public TopicSource {
   std::mutex mutex_;
   OnMessage on_message_;
 };
+
+/// The same topic of a recording. It says one thing where it begins, and jumps once it is read.
+class PlayedTopic final : public OneTopic, public Playback {
+ public:
+  bool watch(const std::string& name, OnMessage on_message) override {
+    OneTopic::watch(name, std::move(on_message));
+    is_read_ = true;
+    return write("before");
+  }
+
+  Time first() const override { return Time{0}; }
+  Time last() const override { return Time{1}; }
+  State state() const override { return {}; }
+  bool request(const Request&) override { return write("behind"); }
+  Advance advance() override {
+    const bool jumps = jumps_by_itself && std::exchange(is_read_, false);
+    return {.next = Duration{0}, .jumped = jumps && write("behind")};
+  }
+
+  bool jumps_by_itself = false;
+
+ private:
+  bool is_read_ = false;
+};
+
+/// What a client of a played topic is told of its messages and of jumps once it has subscribed to
+/// it, and has asked for `request`, up to the message that comes behind the jump.
+std::vector<std::string> told_of(PlayedTopic& topic, const std::string& request) {
+  std::atomic<bool> ends{false};
+  FoxgloveBridge bridge{topic, {.server = {.protocols = {"foxglove.sdk.v1"}}, .playback = &topic}};
+  std::thread thread{[&] { bridge.run([&] { return ends.load(); }); }};
+  std::vector<std::string> told;
+  {
+    WebSocket socket{bridge.port(), "Sec-WebSocket-Protocol: foxglove.sdk.v1\r\n"};
+    for (auto frame = socket.next(); frame; frame = socket.next()) {
+      constexpr char kMessage = 1, kState = 5;
+      if (frame->op == 1) {
+        const json said = json::parse(frame->payload);
+        if (said["op"] != "advertise") continue;
+        const json one{{"id", 1}, {"channelId", said["channels"][0]["id"]}};
+        socket.send_text(json{{"op", "subscribe"}, {"subscriptions", {one}}}.dump());
+        if (!request.empty()) socket.send_binary(request);
+      } else if (frame->payload[0] == kMessage) {
+        told.push_back(frame->payload.substr(13));
+        if (told.back() == "behind") break;
+      } else if (frame->payload[0] == kState && frame->payload[14] == 1) {
+        told.emplace_back("jump");
+      }
+    }
+  }
+  ends = true;
+  thread.join();
+  return told;
+}
 
 class FoxgloveBridgeTest : public testing::Test {
  protected:
@@ -232,6 +286,36 @@ TEST_F(FoxgloveBridgeTest, OffersTheFirstOfTwoTopicsOfOneName) {
   ASSERT_EQ(came["channels"].size(), 1U);
   EXPECT_EQ(came["channels"][0]["id"], channel_ + 1);
   EXPECT_EQ(answer_to(R"({"op": "end"})"), "'end' is not done here: a monitor only shows");
+}
+
+TEST_F(FoxgloveBridgeTest, TellsAClientHowManyMessagesDidNotArrive) {
+  socket_.send_text(json{{"op", "subscribe"}, {"subscriptions", {subscription(1)}}}.dump());
+  EXPECT_EQ(answer_to(R"({"op": "end"})"), "'end' is not done here: a monitor only shows");
+  ASSERT_TRUE(topic_.write("bright", 3));
+  EXPECT_EQ(told().value("message", ""), "3 messages were lost on the way to the bridge");
+  WebSocket later{bridge_.port(), "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n"};
+  ASSERT_TRUE(topic_.write("dark", 1));
+  EXPECT_EQ(told().value("message", ""), "1 messages were lost on the way to the bridge");
+  later.send_text(R"({"op": "end"})");
+  for (auto frame = later.next(); frame; frame = later.next()) {
+    const json said = json::parse(frame->payload);
+    if (said["op"] != "status") continue;
+    EXPECT_EQ(said["message"], "'end' is not done here: a monitor only shows")
+        << "it reads no topic";
+    break;
+  }
+}
+
+TEST(FoxgloveBridgePlaybackTest, SendsNothingFromBeforeAJumpBehindIt) {
+  const std::vector<std::string> in_order{"before", "jump", "behind"};
+  PlayedTopic asked;
+  std::string seek(19, '\0');  // to 0, at the speed that it has
+  seek[0] = 3;
+  seek[6] = 1;
+  EXPECT_EQ(told_of(asked, seek), in_order);
+  PlayedTopic jumping;
+  jumping.jumps_by_itself = true;
+  EXPECT_EQ(told_of(jumping, ""), in_order);
 }
 
 TEST_F(FoxgloveBridgeTest, OffersATopicAnewThatHasAnotherType) {

@@ -47,7 +47,6 @@ export class App {
   private run = '';
   private topicsVersion = -1;
   private condition = '';
-  private told = 0;  // warnings of the source
   private slowAt = 0;
   private tickedAt = performance.now();
   private unreadable = new Set<string>();  // topics of which that was told
@@ -92,7 +91,7 @@ export class App {
       this.log.add({t: recording.start, level: recording.remark ? 'warning' : 'info', who: 'page',
                     text: `${file.name}: ${recording.messages} messages of ${recording.topics.size} topics${recording.remark ? `. ${recording.remark}` : ''}`});
     } catch (error) {
-      this.hub.warnings.push({t: this.hub.store.newest, text: `${file.name} is no recording that can be read: ${(error as Error).message}`});
+      this.hub.warn(`${file.name} is no recording that can be read: ${(error as Error).message}`);
     }
   }
   view(): View {
@@ -230,7 +229,7 @@ export class App {
     this.hub.want(topics);
   }
   private tellCondition() {
-    const {condition, text, warnings} = this.hub;
+    const {condition, text} = this.hub;
     if (condition !== this.condition && condition !== 'reading' && condition !== 'read') {
       const isFirst = this.condition === '';
       this.condition = condition;
@@ -241,9 +240,8 @@ export class App {
       this.unreadable.add(log.name);
       this.log.add({t: this.now(), level: 'warning', who: 'page', text: `a message of ${log.name} cannot be read: ${log.failure}`});
     }
-    if (warnings.length < this.told) this.told = 0;
-    for (; this.told < warnings.length; ++this.told) {
-      this.log.add({t: this.now(), level: 'warning', who: 'page', text: warnings[this.told]!.text});
+    for (const warning of this.hub.warnings.splice(0)) {
+      this.log.add({t: this.now(), level: 'warning', who: 'page', text: warning});
     }
   }
   private now() { return Number.isFinite(this.hub.store.newest) ? this.hub.store.newest : Date.now() / 1000; }

@@ -5,6 +5,8 @@ import type {Hub} from './hub';
 import type {Message} from './message/decoder';
 
 export const kStates = ['ok', 'degraded', 'fault', 'stalled'] as const;
+const kSilentS = 5;  // a process that has told nothing for so long tells nothing any more: states come twice a second
+const kStatesKept = 12;  // of a process: those that come in that time, and some
 
 export interface Port {
   name: string;
@@ -87,24 +89,17 @@ export class Deployment {
 
   /// How the components were at a time, from the newest message of each process.
   conditionsAt(t: number): Map<string, ComponentCondition> {
-    const log = this.hub.log(this.statesTopic);
     const found = new Map<string, ComponentCondition>();
-    const done = new Set<string>();
-    for (let i = log.indexAt(t), steps = 0; i >= 0 && steps < 4 * Math.max(1, this.processes.length); --i, ++steps) {
-      const entry = log.entry(i)!;
-      if (entry.t < t - 5 && done.size > 0) break;
-      const message = log.message(entry);
-      if (!message || done.has(message.process)) continue;
-      done.add(message.process);
-      const previous = this.previous(i, message.process);
+    for (const [process, {i, t: toldAt, message}] of this.statesAt(t)) {
+      const previous = this.previous(i, process);
       for (const one of message.components) {
         const before = previous?.message.components.find((other: Message) => other.component === one.component);
         const activations = before ? Number(one.activations) - Number(before.activations) : NaN;
         const reactions = [...one.reactions].sort((a: Message, b: Message) => b.age.p99 - a.age.p99);
-        found.set(this.nameOf(one.component, message.process), {
+        found.set(this.nameOf(one.component, process), {
           state: one.state,
           reason: one.reason,
-          hz: previous ? activations / (entry.t - previous.t) : NaN,
+          hz: previous ? activations / (toldAt - previous.t) : NaN,
           missed: Number(one.overruns),
           dropped: Number(one.dropped),
           stepP99: one.step.p99,
@@ -112,6 +107,38 @@ export class Deployment {
           reaction: reactions[0] ? {source: reactions[0].source, p99: reactions[0].age.p99} : undefined,
         });
       }
+    }
+    return found;
+  }
+  /// The processes that have told of themselves and tell nothing any more at a time: they have died, or stand still.
+  silentAt(t: number): string[] {
+    const first = this.hub.log(this.statesTopic).first?.t ?? NaN;
+    if (!(t - first >= kSilentS)) return [];
+    const heard = this.statesAt(t);
+    return this.told.filter((process) => !heard.has(process));
+  }
+  /// How all of it was at a time, in a line, and the worst state in that.
+  healthAt(t: number): {state: number; text: string} {
+    const newest = this.hub.log(this.statesTopic).last?.t ?? NaN;
+    if (t - newest > 3) return {state: 1, text: `nothing told of the components for ${(t - newest).toFixed(0)} s`};
+    const conditions = this.conditionsAt(t);
+    const bad = [...conditions].filter(([, one]) => one.state !== 0);
+    const untold = this.processes.filter((process) => !this.told.includes(process)), silent = this.silentAt(t);
+    let text = `${conditions.size - bad.length} of ${this.components.length} ok`;
+    if (bad[0]) text += `; ${bad[0][0]} ${kStates[bad[0][1].state] ?? '?'}: ${bad[0][1].reason}`;
+    if (untold.length > 0) text += `; ${untold.join(', ')} has told nothing`;
+    if (silent.length > 0) text += `; ${silent.join(', ')} tells nothing any more`;
+    return {state: Math.max(silent.length > 0 ? 2 : untold.length > 0 ? 1 : 0, ...bad.map(([, one]) => one.state)), text};
+  }
+  /// The newest states that each process has told until a time.
+  private statesAt(t: number): Map<string, {i: number; t: number; message: Message}> {
+    const log = this.hub.log(this.statesTopic);
+    const found = new Map<string, {i: number; t: number; message: Message}>();
+    for (let i = log.indexAt(t), steps = 0; i >= 0 && steps < kStatesKept * Math.max(1, this.processes.length); --i, ++steps) {
+      const entry = log.entry(i)!;
+      if (entry.t < t - kSilentS && found.size > 0) break;
+      const message = log.message(entry);
+      if (message && !found.has(message.process)) found.set(message.process, {i, t: entry.t, message});
     }
     return found;
   }

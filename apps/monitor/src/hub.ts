@@ -26,7 +26,7 @@ export class Hub {
   received = 0;
   firstDataMs = NaN;     // after the page began, or after there was something to see
   topicsVersion = 0;     // changes with the topics
-  warnings: {t: number; text: string}[] = [];
+  warnings: string[] = [];  // that nobody has taken yet; of too many the last
   private sinceMs = NaN;
   private wanted = new Set<string>();
   private arrivals: ((arrival: Arrival) => void)[] = [];
@@ -65,6 +65,10 @@ export class Hub {
   /// Topics of a type, "tf2_msgs/msg/TFMessage", in order of their names.
   ofType(type: string): string[] {
     return [...this.topics.values()].filter((topic) => topic.type === type).map((topic) => topic.name).sort();
+  }
+  warn(text: string) {
+    this.warnings.push(text);
+    if (this.warnings.length > 100) this.warnings.shift();
   }
 
   private leave() {
@@ -114,9 +118,5 @@ export class Hub {
       jumped: () => this.forgetAll(),
       warning: (text) => this.warn(text),
     };
-  }
-  private warn(text: string) {
-    this.warnings.push({t: this.store.newest, text});
-    if (this.warnings.length > 100) this.warnings.shift();
   }
 }

@@ -4,16 +4,18 @@ import assert from 'node:assert/strict';
 import {test} from 'node:test';
 import {McapWriter} from '@mcap/core';
 
-import type {Component} from '../src/deployment';
+import {Deployment, type Component} from '../src/deployment';
 import {numericFields, valueAt} from '../src/message/fields';
 import {decoderOf} from '../src/message/decoder';
 import {Hub} from '../src/hub';
 import {placeComponents} from '../src/panels/graph_layout';
+import {Curve} from '../src/plot/curve';
 import {parseExpression} from '../src/plot/expression';
 import {clock, marksOf} from '../src/panels/time_scale';
 import {Playhead} from '../src/playhead';
 import {Playback} from '../src/source/playback';
-import {openRecording} from '../src/source/recording_file';
+import {Recording} from '../src/source/recording';
+import {openRecording, type RecordingFile} from '../src/source/recording_file';
 import {Store} from '../src/store';
 
 const messages: Record<string, unknown> = {
@@ -325,4 +327,82 @@ test('a sample that two processes have recorded is counted and shown once', asyn
   assert.deepEqual(await shown(joined.slice(0, -9)), {seen: once, wasEnded: false});
   const alone = await recordingOf(['vision']);
   assert.equal((await shown(alone)).seen.length, 5, 'what came from a process that is not in it is all there is');
+});
+
+test('what is read of a recording when it is sought in is read again to its end', async () => {
+  const topics = new Map([['/log', 600], ['/often', 6000]].map(([name, count]) => [name, {name, count}]));
+  const file = {
+    name: 'ten minutes', topics, messages: 6600, start: 0, end: 600, remark: '',
+    async *read(wanted: Set<string>, from: number, to: number) {
+      for (let i = 0; i < 6000; ++i) {
+        const t = i / 10;
+        if (i % 100 === 0) await new Promise((resolve) => setTimeout(resolve, 10));  // a chunk is unpacked
+        if (t < from || t > to) continue;
+        for (const topic of wanted) if (topic === '/often' || i % 10 === 0) yield {topic, t, bytes: new Uint8Array(1)};
+      }
+    },
+  };
+  const kept = new Map([['/log', 0], ['/often', 0]]);
+  const recording = new Recording(file as unknown as RecordingFile, {
+    condition() {}, topics() {}, played() {}, jumped() {}, warning(text) { assert.fail(text); },
+    message(topic) { kept.set(topic, kept.get(topic)! + 1); },
+    forget(topic) { kept.set(topic, 0); },
+  });
+  recording.want(new Set(['/log', '/often']));
+  while (kept.get('/log')! < 100) await new Promise((resolve) => setTimeout(resolve, 5));
+  assert.ok(kept.get('/log')! < 600, 'the seldom ones are being read');
+  recording.lookAt(600);
+  while (!recording.hasEnd) await new Promise((resolve) => setTimeout(resolve, 20));
+  assert.deepEqual([...kept], [['/log', 600], ['/often', 450]]);
+});
+test('a curve of a fast topic evaluates each message once, and one of a recording has them all', () => {
+  const hub = new Hub(), log = hub.log('/a');
+  let evaluated = 0;
+  log.decode = () => ({x: ++evaluated});
+  const curve = new Curve('{/a}.x', (topic) => topic);
+  for (let i = 1; i <= 40000; ++i) {
+    hub.store.add('/a', i / 1000, new Uint8Array(1));
+    if (i % 150 === 0) curve.update(hub);
+  }
+  curve.update(hub);
+  assert.equal(evaluated, 40000);
+  assert.ok(curve.times.length <= 20050 && curve.times.at(-1) === 40, `${curve.times.length} points`);
+
+  const whole = new Curve('{/a}.x', (topic) => topic);
+  whole.update(Object.create(hub, {recording: {value: {}}}));
+  assert.equal(whole.times.length, 40000);
+  assert.ok(Number.isFinite(whole.at(5)));
+});
+test('of many warnings each is there to be told once', () => {
+  const hub = new Hub(), told: string[] = [];
+  for (let i = 0; i < 250; ++i) {
+    hub.warn(`warning ${i}`);
+    told.push(...hub.warnings.splice(0));
+  }
+  assert.deepEqual(told, Array.from({length: 250}, (_, i) => `warning ${i}`));
+  for (let i = 0; i < 250; ++i) hub.warn(`warning ${i}`);
+  assert.deepEqual([hub.warnings.length, hub.warnings.at(-1)], [100, 'warning 249']);
+});
+test('a process that dies while it is watched is named, and all is not well', () => {
+  const hub = new Hub(), deployment = new Deployment(hub, 'lamp', '/lamp');
+  const processes = ['main', 'vision'];
+  const json = (value: unknown) => new TextEncoder().encode(JSON.stringify(value));
+  for (const topic of [deployment.descriptionTopic, deployment.statesTopic]) {
+    hub.log(topic).decode = (bytes) => JSON.parse(new TextDecoder().decode(bytes));
+  }
+  for (const process of processes) {
+    hub.store.add(deployment.descriptionTopic, 0, json({run: 'a', process, processes, components: [{name: `of_${process}`}]}));
+  }
+  const tell = (t: number, process: string) => hub.store.add(deployment.statesTopic, t, json({
+    process, components: [{component: `of_${process}`, state: 0, reason: '', activations: 0, reactions: [], step: {}, lateness: {}}],
+  }));
+  deployment.update();
+  for (let t = 0; t <= 30; t += 0.5) {
+    tell(t, 'main');
+    if (t < 20) tell(t, 'vision');
+  }
+  assert.deepEqual(deployment.healthAt(1), {state: 0, text: '2 of 2 ok'});
+  assert.deepEqual(deployment.healthAt(20), {state: 0, text: '2 of 2 ok'});
+  assert.deepEqual(deployment.healthAt(30), {state: 2, text: '1 of 2 ok; vision tells nothing any more'});
+  assert.deepEqual(deployment.healthAt(36), {state: 1, text: 'nothing told of the components for 6 s'});
 });

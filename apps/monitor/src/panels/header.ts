@@ -2,7 +2,7 @@
 // The head of the page, for those who stand two metres away: what runs, what it does, how near it is
 // to its goals, whether all is well.
 import {kStateSigns} from '../colours';
-import {kStates, type Deployment} from '../deployment';
+import type {Deployment} from '../deployment';
 import type {Series} from '../layouts/layout';
 import {make, write, type View} from '../view';
 import {formatted} from './plot_panel';
@@ -37,7 +37,7 @@ export class Header {
   static taskTopic(deployment: Deployment | undefined) { return deployment?.topic('task/state') ?? ''; }
 
   draw(view: View, deployments: {name: string; namespace: string}[], headlines: Headline[]) {
-    const {hub, deployment, layout, t} = view;
+    const {hub, deployment, layout} = view;
     const key = deployments.map(({namespace}) => namespace).join();
     if (key !== this.names) {
       this.names = key;
@@ -50,7 +50,7 @@ export class Header {
     write(this.story, deployment ? layout.story : hub.condition === 'connected' ? 'No deployment runs on this domain' : '');
     this.drawTask(view);
     this.drawFigures(headlines);
-    this.drawHealth(view, t);
+    this.drawHealth(view);
     const lost = hub.condition === 'lost' || hub.condition === 'refused';
     write(this.connection, `${lost ? '▲ ' : ''}${hub.condition === 'connected' ? connected(view) : hub.text}`);
     this.connection.classList.toggle('lost', lost);
@@ -83,20 +83,12 @@ export class Header {
       item.className = met;
     });
   }
-  private drawHealth({deployment, hub}: View, t: number) {
+  private drawHealth({deployment, t}: View) {
     if (!deployment || deployment.components.length === 0) return write(this.health, '');
-    const conditions = deployment.conditionsAt(t);
-    const bad = [...conditions].filter(([, one]) => one.state !== 0);
-    const silent = deployment.processes.filter((process) => !deployment.told.includes(process));
-    const newest = hub.log(deployment.statesTopic).last?.t ?? NaN;
-    const worst = Math.max(0, ...bad.map(([, one]) => one.state));
-    let text = `${kStateSigns[worst]} ${conditions.size - bad.length} of ${deployment.components.length} ok`;
-    if (bad[0]) text += `; ${bad[0][0]} ${kStates[bad[0][1].state] ?? '?'}: ${bad[0][1].reason}`;
-    if (silent.length > 0) text += `; ${silent.join(', ')} has told nothing`;
-    if (t - newest > 3 && t >= newest) text = `▲ nothing told of the components for ${(t - newest).toFixed(0)} s`;
-    write(this.health, text);
+    const {state, text} = deployment.healthAt(t);
+    write(this.health, `${kStateSigns[state]} ${text}`);
     this.health.title = text;
-    this.health.className = `health state${t - newest > 3 && t >= newest ? 1 : worst}`;
+    this.health.className = `health state${state}`;
     return undefined;
   }
 }

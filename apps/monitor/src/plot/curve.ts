@@ -3,7 +3,7 @@
 import type {Hub} from '../hub';
 import {parseExpression, type Expression} from './expression';
 
-const kMaxPoints = 20000;
+const kMaxPoints = 20000;  // of what runs; a recording is bounded by what is read of it
 
 export class Curve {
   readonly topics: string[];  // in full
@@ -11,6 +11,7 @@ export class Curve {
   values: (number | null)[] = [];
   version = 0;
   private expression: Expression;
+  private seenFrom = Infinity;  // the times of the first and the last message that was evaluated
   private seenTo = -Infinity;
   private clock: string;
 
@@ -33,6 +34,7 @@ export class Curve {
     this.expression = this.parse();  // what it remembers, too
     this.times = [];
     this.values = [];
+    this.seenFrom = Infinity;
     this.seenTo = -Infinity;
     ++this.version;
   }
@@ -43,7 +45,7 @@ export class Curve {
       if (this.times.length > 0) this.clear();
       return;
     }
-    if (this.times.length > 0 && clock.first!.t < this.times[0]! - 0.5) this.clear();
+    if (this.times.length > 0 && clock.first!.t < this.seenFrom - 0.5) this.clear();
     const others = this.topics.slice(1).map((topic) => hub.log(topic));
     for (let i = clock.indexAt(this.seenTo) + 1; i < clock.length; ++i) {
       const {t} = clock.entry(i)!;
@@ -57,10 +59,11 @@ export class Curve {
       });
       this.times.push(t);
       this.values.push(Number.isFinite(value) ? value : null);
+      this.seenFrom = Math.min(this.seenFrom, t);
       this.seenTo = t;
       ++this.version;
     }
-    this.forgetBefore(hub.recording ? -Infinity : hub.store.newest - hub.store.windowS);
+    if (!hub.recording) this.forgetBefore(hub.store.newest - hub.store.windowS);
   }
   at(t: number): number {
     let low = 0, high = this.times.length;

@@ -18,6 +18,7 @@ export class Recording implements Source {
   isIdle = true;
   private wanted: ReadonlySet<string> = new Set();
   private loaded = new Set<string>();
+  private reading: ReadonlySet<string> = new Set();  // those of `loaded` of which the pass that runs brings more
   private wantedAt = 0;  // [ms] when that changed last
   private job = 0;
   private progress = 0;  // of the pass that runs, 0 to 1
@@ -45,10 +46,11 @@ export class Recording implements Source {
     this.from = Math.max(this.file.start, t - kAroundS);
     this.to = Math.min(this.file.end, t + kAroundS);
     for (const topic of [...this.loaded]) {
-      if (this.isSeldom(topic)) continue;
+      if (this.isSeldom(topic) && !this.reading.has(topic)) continue;
       this.events.forget(topic);
       this.loaded.delete(topic);
     }
+    this.reading = new Set();
     ++this.job;
     this.isIdle = true;
     void this.load();
@@ -82,9 +84,11 @@ export class Recording implements Source {
         const seldom = new Set(missing.filter((topic) => this.isSeldom(topic)));
         const next = seldom.size > 0 ? seldom : new Set(missing);
         for (const topic of next) this.loaded.add(topic);
+        this.reading = next;
         if (seldom.size > 0) await this.read(next, -Infinity, Infinity, job);
         else await this.read(next, this.from, this.to, job);
         if (job !== this.job) return;
+        this.reading = new Set();
       }
     } catch (error) {
       this.events.warning(`The recording cannot be read: ${(error as Error).message}`);

@@ -81,8 +81,9 @@ class SectionsComponent final : public Component {
     const auto tool = tool_now();
     if (tool) tool_ = *tool;
     publish_tool(tool, now);
+    const Tool* shown = tool ? &*tool : nullptr;
     for (std::size_t i = 0; volume_ && i < kPictures.size(); ++i) {
-      if (images_[i].has_subscribers()) publish_picture(i, now);
+      if (images_[i].has_subscribers()) publish_picture(i, shown, now);
     }
   }
 
@@ -93,7 +94,7 @@ class SectionsComponent final : public Component {
                                         ? point()
                                         : to_eigen(plan_now_->target_());
     for (const Picture& picture : kPictures) {
-      const cv::Mat drawn = drawn_through(picture, through);
+      const cv::Mat drawn = drawn_through(picture, through, tool_ ? &*tool_ : nullptr);
       write_atomically(directory / fmt::format("section_{}.png", picture.name),
                        png::encoded({.width = drawn.cols,
                                      .height = drawn.rows,
@@ -106,7 +107,8 @@ class SectionsComponent final : public Component {
  private:
   Expected<Tool> tool_now() const {
     if (!image_T_robot_) return refuse("the image is not registered yet");
-    if (!ports_.measured_js.latest()) return refuse("the arm has not said where it is");
+    if (!ports_.measured_js.latest())
+      return refuse("the arm has not said where it is for the last 0.5 s");
     const msg::JointState& arm = *ports_.measured_js.latest();
     const auto q = joints_of(robot_, arm);
     if (!q) return tl::unexpected{q.error()};
@@ -155,41 +157,43 @@ class SectionsComponent final : public Component {
   }
 
   /// What the live sections go through.
-  Eigen::Vector3d through_now() const {
+  Eigen::Vector3d through_now(const Tool* tool) const {
     if (parameters_.through == Parameters::Through::point) return point();
-    const bool tool_inside = tool_ && volume_->geometry.contains(tool_->tip);
-    if (parameters_.through == Parameters::Through::tool && tool_inside) return tool_->tip;
+    const bool tool_inside = tool && volume_->geometry.contains(tool->tip);
+    if (parameters_.through == Parameters::Through::tool && tool_inside) return tool->tip;
     return plan_now_ ? to_eigen(plan_now_->target_()) : point();
   }
 
-  Overlay overlay() const {
+  Overlay overlay(const Tool* tool) const {
     Overlay overlay{.plan = {}, .needle = {}, .vessels = vessels()};
     if (plan_now_) overlay.plan = {to_eigen(plan_now_->entry_()), to_eigen(plan_now_->target_())};
-    if (!tool_) return overlay;
-    overlay.needle = {tool_->tip, tool_->tip - parameters_.needle * tool_->direction};
+    if (!tool) return overlay;
+    overlay.needle = {tool->tip, tool->tip - parameters_.needle * tool->direction};
     if (plan_now_) {
       overlay.texts.push_back(
-          fmt::format("to the target {:.1f} mm", 1e3 * (tool_->tip - overlay.plan->to).norm()));
+          fmt::format("to the target {:.1f} mm", 1e3 * (tool->tip - overlay.plan->to).norm()));
     }
-    const double vessel = vessel_distance(tool_->tip);
+    const double vessel = vessel_distance(tool->tip);
     if (std::isfinite(vessel)) {
       overlay.texts.push_back(fmt::format("to a vessel {:.1f} mm", 1e3 * vessel));
     }
     return overlay;
   }
 
-  cv::Mat drawn_through(const Picture& picture, const Eigen::Vector3d& through) const {
+  /// `tool`: null when it is not known where it is.
+  cv::Mat drawn_through(const Picture& picture, const Eigen::Vector3d& through,
+                        const Tool* tool) const {
     const Section section = section_through(picture.view, through, volume_->geometry,
                                             parameters_.view, parameters_.size);
-    return drawn(*volume_, section, parameters_.window[0], parameters_.window[1], overlay(),
+    return drawn(*volume_, section, parameters_.window[0], parameters_.window[1], overlay(tool),
                  fmt::format("{} {} = {:.1f} mm", picture.name, picture.normal,
                              1e3 * through[picture.axis]));
   }
 
-  void publish_picture(std::size_t i, Time now) {
-    const cv::Mat picture = drawn_through(kPictures[i], through_now());
+  void publish_picture(std::size_t i, const Tool* tool, Time now) {
+    const cv::Mat picture = drawn_through(kPictures[i], through_now(tool), tool);
     auto image = images_[i].loan();
-    write_header(image->header_(), tool_ ? tool_->stamp : now, kImageFrame);
+    write_header(image->header_(), tool ? tool->stamp : now, kImageFrame);
     image->width_(static_cast<std::uint32_t>(picture.cols));
     image->height_(static_cast<std::uint32_t>(picture.rows));
     image->step_(static_cast<std::uint32_t>(3 * picture.cols));
@@ -205,7 +209,7 @@ class SectionsComponent final : public Component {
   std::optional<Volume> volume_;
   std::optional<msg::NeedlePlan> plan_now_;
   std::optional<Eigen::Affine3d> image_T_robot_;
-  std::optional<Tool> tool_;
+  std::optional<Tool> tool_;  // as it was known last
   Ports ports_;
   AnnouncedVolume announced_;
   OverheardRegistration registration_;

@@ -104,6 +104,30 @@ TEST_F(SectionsComponentTest, ShowThreePicturesWhileSomebodyLooks) {
   }
 }
 
+TEST_F(SectionsComponentTest, ShowNoToolThatWasMeasuredLongAgo) {
+  const auto axial_at = [&](double time_s) {
+    view_.step(time_s);
+    const auto images = view_.take<msg::Image>("axial");
+    return images.empty() ? msg::Image{} : images.back();
+  };
+  static_cast<void>(view_.take<msg::Image>("axial"));
+  show_volume_and_plan();
+  register_at_tip({-0.003, 0, -0.02});
+  const msg::Image without = axial_at(99.8);
+  tell_arm();
+  const msg::Image with = axial_at(100);
+  ASSERT_FALSE(without.data_().empty());
+  EXPECT_NE(with.data_(), without.data_());
+  static_cast<void>(view_.take<msg::ToolInImage>("tool"));
+  const msg::Image later = axial_at(101);
+  EXPECT_EQ(later.data_(), without.data_());
+  EXPECT_EQ(later.header_().stamp_().sec_(), 101);
+  const auto tools = view_.take<msg::ToolInImage>("tool");
+  ASSERT_EQ(tools.size(), 1u);
+  EXPECT_FALSE(tools[0].valid_());
+  EXPECT_EQ(tools[0].reason_(), "the arm has not said where it is for the last 0.5 s");
+}
+
 TEST_F(SectionsComponentTest, WriteTheSectionsThroughTheTargetIntoTheReport) {
   show_volume_and_plan();
   view_.step(100);

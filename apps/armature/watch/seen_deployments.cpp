@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <string_view>
 #include <utility>
 
 #include "armature/bus/topic_name.hpp"
@@ -13,15 +12,6 @@
 
 namespace armature {
 namespace {
-
-/// "dental_lamp" of "rt/dental_lamp/component_states"; empty: the topic is another one.
-std::string deployment_of(std::string_view topic, std::string_view name) {
-  constexpr std::string_view kRoot = "rt/";
-  if (!topic.starts_with(kRoot) || !topic.ends_with(name)) return "";
-  topic.remove_prefix(kRoot.size());
-  topic.remove_suffix(std::min(topic.size(), name.size()));
-  return topic.find('/') == std::string_view::npos ? std::string{topic} : "";
-}
 
 double per(double amount, Duration time) {
   return time > Duration{0} ? amount / to_seconds(time) : 0;
@@ -52,8 +42,8 @@ SeenDeployments::SeenDeployments(const WatchOptions& options, std::string name)
 
 /// What the topic tells of which deployment, where that writes it; who else does is noted.
 std::optional<SeenDeployments::OwnTopic> SeenDeployments::own_topic(const ObservedTopic& topic) {
-  const std::string described = deployment_of(topic.name, "/description");
-  const std::string told = deployment_of(topic.name, "/component_states");
+  const std::string described = deployment_of(topic.name, "description");
+  const std::string told = deployment_of(topic.name, "component_states");
   const OwnTopic own{.deployment = described.empty() ? told : described,
                      .describes = !described.empty()};
   if (own.deployment.empty() || (!name_.empty() && own.deployment != name_)) return std::nullopt;

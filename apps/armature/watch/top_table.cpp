@@ -27,6 +27,7 @@ struct Row {
   std::size_t place = kUnplaced;  // in the graph
   std::string state, reason;
   std::optional<Tone> tone;
+  bool is_silent = false;
   double rate_hz = 0, processor = 0;
 
   const msg::ComponentState& told() const { return component->state; }
@@ -51,6 +52,7 @@ Row row_of(const std::string& process, const SeenComponent& component, Time now)
   row.reason = component.state.reason_();
   if (state > 0) row.tone = state == 1 ? Tone::doubtful : Tone::bad;
   if (now - component.heard > kSilent) {
+    row.is_silent = true;
     row.state = "silent";
     row.reason = fmt::format("has told nothing for {:.0f} s", to_seconds(now - component.heard));
     row.tone = Tone::bad;
@@ -140,7 +142,11 @@ TopLine summary_of(const std::string& name, const SeenDeployment& deployment,
   text += fmt::format(", {} of {} processes, {} clock, fingerprint {}", deployment.processes.size(),
                       told.processes_().size(), told.simulated_() ? "simulated" : "system",
                       told.fingerprint_().substr(0, 12));
-  const std::vector<std::string> missing = deployment.missing();
+  std::vector<std::string> missing = deployment.missing();
+  for (const Row& row : rows) {
+    const bool is_new = std::ranges::find(missing, row.process) == missing.end();
+    if (row.is_silent && is_new) missing.push_back(row.process);
+  }
   if (missing.empty()) return {text, std::nullopt};
   return {text + fmt::format("; nothing is heard of process '{}'", fmt::join(missing, "', '")),
           Tone::bad};

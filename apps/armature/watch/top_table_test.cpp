@@ -94,6 +94,19 @@ TEST_F(TopTableTest, NamesTheProcessOfWhichNothingIsHeard) {
   EXPECT_EQ(summary.tone, Tone::bad);
 }
 
+TEST_F(TopTableTest, NamesAProcessThatDiesWhileItIsWatched) {
+  seen_["lamp"].processes["main"].processes_({"main", "vision"});
+  seen_["lamp"].processes["vision"] = seen_["lamp"].processes["main"];
+  SeenComponent& component = seen_["lamp"].components[{"vision", "face"}];
+  component.heard = kNow;
+  EXPECT_FALSE(top_table(seen_, {}, kNow).lines[0].tone);
+  component.heard = kNow - seconds(4);
+  const TopLine summary = top_table(seen_, {}, kNow).lines[0];
+  EXPECT_THAT(summary.text, HasSubstr("2 of 3 components ok"));
+  EXPECT_THAT(summary.text, HasSubstr("nothing is heard of process 'vision'"));
+  EXPECT_EQ(summary.tone, Tone::bad);
+}
+
 TEST_F(TopTableTest, KeepsItsColumnsBesideALongName) {
   add("a_component_with_quite_a_long_name", 0.001);
   const TopTable table = top_table(seen_, {}, kNow);

@@ -38,8 +38,7 @@ std::string restless(const Isometry3d& from, const Isometry3d& to) {
   const Stillness way = distance(from, to);
   return fmt::format(
       "the arm does not stand still within {:g} s: it measures its flange {:.2g} mm and {:.2g} "
-      "mrad "
-      "off where it was; {:g} mm and {:g} mrad of noise are allowed for at most",
+      "mrad off where it was; {:g} mm and {:g} mrad of noise are allowed for at most",
       to_seconds(kRestsWithin), 1e3 * way.position_m, 1e3 * way.angle_rad,
       1e3 * kNoisiest.position_m, 1e3 * kNoisiest.angle_rad);
 }

@@ -28,16 +28,16 @@ int stops_behind(const Trajectory& way, double place_s) {
   return stops;
 }
 
-/// [s] Where the way is nearest to `q`.
-double nearest_s(const Trajectory& way, const JointVector& q) {
+/// [s] Where the way is nearest to `q` between two places.
+double nearest_s(const Trajectory& way, const JointVector& q, double begin, double end) {
   const auto off = [&](double t) { return (state_at(way.view(), t).q - q).squaredNorm(); };
   constexpr int kSamples = 2000, kSteps = 60;
-  const double end = way.duration_s(), step = end / kSamples;
-  double nearest = 0;
+  const double step = (end - begin) / kSamples;
+  double nearest = begin;
   for (int i = 1; i <= kSamples; ++i) {
-    if (off(i * step) < off(nearest)) nearest = i * step;
+    if (off(begin + i * step) < off(nearest)) nearest = begin + i * step;
   }
-  double from = std::max(0.0, nearest - step), to = std::min(end, nearest + step);
+  double from = std::max(begin, nearest - step), to = std::min(end, nearest + step);
   for (int i = 0; i < kSteps; ++i) {
     const double third = (to - from) / 3;
     const bool nearer_to_from = off(from + third) < off(to - third);
@@ -92,7 +92,13 @@ void Ways::join(const Trajectory& to_way, Drive& drive) {
   const double lasts = to_way.duration_s();
   if (lasts == 0) return;
   drive.trajectory = followed_by(to_way, drive.trajectory);
+  drive.joins_s = lasts;
   drive.ramp_s += lasts;
+}
+
+double Ways::Drive::place_at(double t) const {
+  if (t >= ramp_s) return std::min(ramp_end_s + t - ramp_s, to_s);
+  return nearest_s(way.trajectory(), state_at(trajectory.view(), t).q, from_s, ramp_end_s);
 }
 
 Ways::Drive Ways::paused(const Drive& drive, double t) const {
@@ -102,10 +108,10 @@ Ways::Drive Ways::paused(const Drive& drive, double t) const {
     next.trajectory = part(drive.trajectory, t, drive.trajectory.duration_s());
     return next;
   }
-  const double ready_s = std::max(t, drive.ramp_s);
-  const Retimed stop = brake(drive.way.trajectory(), drive.place_at(ready_s), limits_);
-  next.trajectory = followed_by(part(drive.trajectory, t, ready_s), stop.trajectory);
-  next.to_s = stop.place_s;
+  const double on_way_s = std::max(t, drive.joins_s);
+  const Retimed stop = brake(drive.trajectory, on_way_s, limits_);
+  next.trajectory = followed_by(part(drive.trajectory, t, on_way_s), stop.trajectory);
+  next.to_s = drive.place_at(stop.place_s);
   return next;
 }
 
@@ -142,7 +148,7 @@ Expected<Ways::Drive> Ways::joined(const JointVector& q) const {
   double off_most = INFINITY;
   for (auto drive = drives_.rbegin(); drive != drives_.rend(); ++drive) {
     const Trajectory& way = drive->way.trajectory();
-    const double place_s = nearest_s(way, q);
+    const double place_s = nearest_s(way, q, 0, way.duration_s());
     const JointVector there = state_at(way.view(), place_s).q;
     const double off = (q - there).cwiseAbs().cwiseQuotient(join_within_).maxCoeff();
     off_most = std::min(off_most, off);

@@ -56,18 +56,19 @@ class Ways {
     Way way;
     double from_s = 0, to_s = 0;        // places on way.trajectory()
     double aims_s = 0;                  // where it would have ended if it had not been paused
-    double ramp_s = 0, ramp_end_s = 0;  // how long it speeds up, and to which place
+    double joins_s = 0;                 // how long it comes to the way
+    double ramp_s = 0, ramp_end_s = 0;  // when it has the planned speed, and where
     bool brakes = false;
     Trajectory trajectory = {};
 
-    /// [s] Where on the way it is at `t`, behind its ramp.
-    double place_at(double t) const { return std::min(ramp_end_s + t - ramp_s, to_s); }
+    /// [s] Where on the way it is at `t`, once it is on it.
+    double place_at(double t) const;
   };
 
   WayLeg keep(Drive drive);
   /// The drive that the reference follows, or none.
   const Drive* find(const PlanRequest& request) const;
-  /// `t`: [s] from the drive's begin, as `Drive::place_at`.
+  /// `t`: [s] from the drive's begin.
   Drive paused(const Drive& drive, double t) const;
   Expected<Drive> gone_on(const Drive& drive, bool back, bool stepwise) const;
   static void join(const Trajectory& to_way, Drive& drive);

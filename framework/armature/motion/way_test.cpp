@@ -154,6 +154,26 @@ TEST_F(WaysTest, APauseThatBeginsWhileItSpeedsUpEndsOnTheWay) {
   expect_at(3, 0);
 }
 
+TEST_F(WaysTest, APauseWhileItSpeedsUpDoesNotLetItSpeedUpFirst) {
+  for (const bool back : {false, true}) {
+    for (const double behind_s : {0.0, 0.01, 0.05, 0.1}) {
+      SCOPED_TRACE(behind_s);
+      drive(*ways_.begin(planned(whole_), false), 0.15);
+      drive(*ask(MotionMode::pause));
+      const WayLeg on = *ask(back ? MotionMode::retrace : MotionMode::resume, false);
+      reference_ = on.trajectory;
+      const JointVector begins = reference_.at(now_).q;
+      now_ = now_ + seconds(behind_s);
+      drive(*ask(MotionMode::pause));
+      const double stop_s = reference_.duration_s();
+      EXPECT_LE(stop_s, 3 * behind_s + 0.03) << "it was as slow as it had been fast";
+      EXPECT_LT((reference_.at(now_).q - begins).norm(), 0.03);
+      drive(*ask(MotionMode::retrace, false));
+      expect_at(0, 0);
+    }
+  }
+}
+
 TEST_F(WaysTest, ATrajectoryThatRestsLessOftenThanItsPathWouldPassAStop) {
   Plan plan = planned(whole_);
   EXPECT_TRUE(ways_.begin(plan, true));

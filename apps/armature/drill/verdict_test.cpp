@@ -101,7 +101,7 @@ TEST(Verdict, AnArmThatWasNotHeardFails) {
 }
 
 TEST(ADrill, HasPassedWhenOneFaultPassedAtLeastAndNoneFailed) {
-  const TrialResult passed, failed{.wrong = "it moved on"}, untried{.untried = "no arm moved"};
+  const TrialResult passed{}, failed{.wrong = "it moved on"}, untried{.untried = "no arm moved"};
   EXPECT_TRUE(has_passed({passed, untried}));
   EXPECT_FALSE(has_passed({passed, failed}));
   EXPECT_FALSE(has_passed({untried})) << "nothing was shown";

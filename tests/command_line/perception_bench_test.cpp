@@ -66,14 +66,15 @@ TEST(BenchPerception, FindsTheDrawnFacesAndStaysNearTheTruthWhereNothingIsWrong)
 
 TEST(BenchPerception, CountsAnEstimatorThatIsWrongAndSaysItIsValid) {
   const CommandResult result = bench_perception(
-      {"--pairs", "5", "--group", "frontal", "--json", "--face-pose", "face_pose/shifted"});
+      {"--pairs", "170", "--group", "frontal", "--json", "--face-pose", "face_pose/shifted"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const auto report = nlohmann::json::parse(result.out);
   EXPECT_EQ(report["face_pose"], "face_pose/shifted");
   const auto& frontal = report["groups"][0];
-  EXPECT_EQ(frontal["found"], 5);
+  EXPECT_GE(frontal["pairs"], 3);
+  EXPECT_EQ(frontal["found"], frontal["pairs"]);
   EXPECT_EQ(frontal["refused"], 0);
-  EXPECT_EQ(frontal["wrong_but_valid"], 5);
+  EXPECT_EQ(frontal["wrong_but_valid"], frontal["pairs"]);
   EXPECT_NEAR(frontal["mouth_m"]["median"], 0.02, 0.006);
 }
 

@@ -106,11 +106,13 @@ class BiopsyReport final : public Component {
          radius_of_999_in_1000(needle.error_rms_m, needle.error_95_m));
   }
 
-  /// The plan that the task goes by is the one that it asked the registration of: it goes on with
-  /// that when another one comes.
+  /// The first plan stays until the task asks for the registration of another one, as the task
+  /// goes on with its own when others come. What is true of a head is no plan of the task's.
   void read_plan() {
-    if (!ports_.plan.latest() || !ports_.request.latest()) return;
-    if (is_asked_of(*ports_.plan.latest(), *ports_.request.latest())) plan_ = *ports_.plan.latest();
+    const msg::NeedlePlan* newest = ports_.plan.latest();
+    if (!newest) return;
+    const bool is_asked = ports_.request.latest() && is_asked_of(*newest, *ports_.request.latest());
+    if (!plan_ || is_asked) plan_ = *newest;
   }
 
   /// None until the task said that the needle is there.

@@ -241,15 +241,6 @@ class Observer final : public DdsObserver {
 
 }  // namespace
 
-std::string deployment_of(std::string_view topic, std::string_view name) {
-  constexpr std::string_view kRoot = "rt/";
-  if (!topic.starts_with(kRoot)) return "";
-  topic.remove_prefix(kRoot.size());
-  const std::size_t slash = topic.find('/');
-  const bool is_it = slash != std::string_view::npos && topic.substr(slash + 1) == name;
-  return is_it ? std::string{topic.substr(0, slash)} : "";
-}
-
 Expected<std::unique_ptr<DdsObserver>> DdsObserver::make(const ObserverOptions& options) {
   NetworkOptions network = options.network;
   // One that is killed must leave no lock behind for which those that it watched wait. With other

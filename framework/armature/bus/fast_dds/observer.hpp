@@ -17,10 +17,6 @@
 
 namespace armature ARMATURE_EXPORT {
 
-/// Of "rt/dental_lamp/description" and "description": "dental_lamp", the deployment whose topic of
-/// that name it is. Empty: it is another topic.
-std::string deployment_of(std::string_view topic, std::string_view name);
-
 /// A writer or reader as discovery shows it.
 struct ObservedEndpoint {
   bool writes = false;

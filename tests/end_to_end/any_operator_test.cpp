@@ -31,7 +31,7 @@ struct System {
   std::string name, file, robot;
   std::vector<std::string> settings;
   std::vector<std::string> rests_while;  // it is in these states
-  double stops_within_s = 2;             // planned first
+  double stops_within_s = 1;             // planned first
   Body body = Body::none;
   bool hand_leads = false;   // up to the approach
   bool ends_well = true;     // unless it is aborted
@@ -326,8 +326,7 @@ INSTANTIATE_TEST_SUITE_P(
                .file = "tests/faults/tour.yaml",
                .robot = "med7.yaml",
                .settings = {"components.task.params.rounds=3", "components.task.params.rest_s=0.5"},
-               .rests_while = {"waiting", "resting"},
-               .stops_within_s = 1},
+               .rests_while = {"waiting", "resting"}},
         System{.name = "Biopsy",
                .file = "configs/sr1_biopsy.yaml",
                .robot = "sr1_needle.yaml",

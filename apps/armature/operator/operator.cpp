@@ -31,6 +31,7 @@
 #include "operator/task_link.hpp"
 #include "standard_output.hpp"
 #include "terminal_text.hpp"
+#include "without_blanks.hpp"
 
 namespace armature {
 namespace {
@@ -68,14 +69,6 @@ TaskTopics find_task(const DeploymentConfig& deployment, const std::string& comp
   }
   throw InvalidChoice(fmt::format("deployment '{}' has several tasks: --component {}",
                                   deployment.name, fmt::join(names, ", or ")));
-}
-
-/// A line without the blanks around it; the lines of some files end with a carriage return.
-std::string without_blanks(const std::string& line) {
-  constexpr std::string_view kBlanks = " \t\r";
-  const std::size_t first = line.find_first_not_of(kBlanks);
-  if (first == std::string::npos) return "";
-  return line.substr(first, line.find_last_not_of(kBlanks) + 1 - first);
 }
 
 /// One operator at a running task.
@@ -182,7 +175,7 @@ class Dialogue {
 
   /// Says a line that was typed; the exit code is the one of --say.
   int answer(const std::string& typed) {
-    const std::string line = without_blanks(typed);
+    const std::string line{without_blanks(typed)};
     if (line.empty()) return kOk;
     const std::string word = word_of(line);
     if (word == "confirm") return confirm();

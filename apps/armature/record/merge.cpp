@@ -120,7 +120,7 @@ class Surroundings {
  public:
   explicit Surroundings(McapWriter& writer) : writer_{writer} {}
 
-  /// What a part has had up to now.
+  /// Copies the attachments and metadata that the reader of a part has come by.
   void copy_of(const McapReader& part) {
     for (const McapAttachment& attachment : part.attachments()) {
       if (attached_.emplace(attachment.name, attachment.data).second) writer_.attach(attachment);

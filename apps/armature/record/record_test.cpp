@@ -273,7 +273,8 @@ TEST(DamagedRecording, HasWhatItsProcessSaidOfItselfWhereItStood) {
                                           "armature.repaired"));
 }
 
-/// As older versions repaired a part: what the process said of itself stands behind everything.
+/// Writes a part as older versions repaired it: what its process said of itself stands behind
+/// everything.
 void write_part_repaired_before(const std::filesystem::path& file, const std::string& process) {
   McapWriter writer{file, {.chunk_bytes = 1024}};
   write_all_but_the_end(writer, 100);

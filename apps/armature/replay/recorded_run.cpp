@@ -170,7 +170,7 @@ bool RecordedRun::is_next(std::uint32_t sequence) {
   return false;
 }
 
-/// What a call has read is older than the call when that is told, after its end.
+/// Holds samples for as long as a call may last: the record of a call comes after its end.
 void RecordedRun::keep_for_call(Duration longest) {
   constexpr Duration kBefore = seconds(1);
   kept_for_ = std::max(kept_for_, longest + kBefore);

@@ -19,8 +19,7 @@ namespace {
 
 constexpr std::uint32_t kWriter = 7, kSamples = 100;
 
-/// Of an input that comes ten times a second, and of one call that lasts from its first sample to
-/// its last.
+/// Records an input ten times a second, and one call that lasts from its first sample to its last.
 void write_long_call(const std::filesystem::path& file) {
   McapWriter writer{file, {}};
   writer.add(McapMetadata{.name = std::string{kDeploymentMetadata},

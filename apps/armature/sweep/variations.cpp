@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "without_blanks.hpp"
+
 namespace armature::sweep {
 namespace {
 
@@ -79,11 +81,6 @@ Vary vary_of(const std::string& text) {
 }
 
 void check_assignment(const std::string& text) {
-  const auto without_blanks = [](std::string_view word) {
-    const auto begin = word.find_first_not_of(' ');
-    if (begin == std::string_view::npos) return std::string_view{};
-    return word.substr(begin, word.find_last_not_of(' ') - begin + 1);
-  };
   const auto equals = text.find('=');
   if (equals == std::string::npos) return;
   const auto key = without_blanks(std::string_view{text}.substr(0, equals));

@@ -10,8 +10,8 @@ namespace armature ARMATURE_EXPORT {
 std::string dds_topic_name(const std::string& name);
 /// "rt/a/b" -> "/a/b"; other names stay.
 std::string ros_topic_name(const std::string& name);
-/// Of "rt/dental_lamp/description" and "description": "dental_lamp", the deployment whose topic of
-/// that name it is. Empty: it is another topic.
+/// The deployment whose topic `name` it is: "dental_lamp" of "rt/dental_lamp/description" and
+/// "description". Empty: it is another topic.
 std::string deployment_of(std::string_view topic, std::string_view name);
 
 }  // namespace armature

@@ -29,7 +29,7 @@ msg::IkSolution solution_of(const RobotModel& robot, const IkBranch& branch) {
   return solution;
 }
 
-/// What is wrong with what a solver found, or nullopt.
+/// The first defect of a solver's answer, or nullopt.
 std::optional<std::string> defect(const RobotModel& robot, const IkBranches& branches) {
   for (const IkBranch& branch : branches) {
     if (branch.q.size() != robot.dof()) {

@@ -50,6 +50,13 @@ void read_drive(MapReader& map, Joint& joint) {
   if (joint.locked && joint.coupling) {
     map.problem("locked", "a joint is coupled or locked, not both");
   }
+  const char* const key = revolute ? "coupled_within_deg" : "coupled_within_m";
+  const auto within = map.optional_number(key);
+  if (within && !joint.coupling) {
+    map.problem(key,
+                fmt::format("'{}' is for a coupled joint, which '{}' is not", key, joint.name));
+  }
+  if (joint.coupling) joint.coupling->within = within;
 }
 
 /// The node that names the leader.

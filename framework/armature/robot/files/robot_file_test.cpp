@@ -119,6 +119,19 @@ TEST(RobotFile, RefusesALockWithoutAHomeOutOfLimitsOrOnACoupledJoint) {
               ElementsAre(HasSubstr("joint 'c' follows 'b', which is locked")));
 }
 
+TEST(RobotFile, StatesHowFarACoupledJointMayBeMeasuredFromItsLeader) {
+  const RobotModel robot =
+      read_good(with("{name: b, coupled: {to: a}, coupled_within_deg: 0.2}", kGoodFrames));
+  EXPECT_NEAR(*robot.joints()[1].coupling->within, 0.2 * std::numbers::pi / 180, 1e-15);
+  EXPECT_THAT(problems_in(with("{name: b, coupled: {to: a}, coupled_within_deg: 0}", kGoodFrames)),
+              ElementsAre(HasSubstr("'coupled_within_deg' is 0, must be more than 0")));
+  EXPECT_THAT(
+      problems_in(with("{name: b, limits_deg: [-90, 90], velocity_rad_s: 1, "
+                       "acceleration_rad_s2: 1, coupled_within_deg: 0.2}",
+                       kGoodFrames)),
+      ElementsAre(HasSubstr("'coupled_within_deg' is for a coupled joint, which 'b' is not")));
+}
+
 TEST(RobotFile, AShaftIsALineWithALength) {
   const std::string good = with(kGoodJoint, kGoodFrames);
   EXPECT_THAT(problems_in(good + "shaft: {axis: w, length_m: 0}\n"),

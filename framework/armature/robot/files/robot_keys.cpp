@@ -51,14 +51,21 @@ std::vector<KeySpec> drive_keys(Joint::Type type) {
                   .doc = "Of its drive, as the joint feels it.",
                   .fallback = default_value("0"),
                   .min = 0};
+  KeySpec within{.name = "coupled_within_deg",
+                 .doc = "A coupled joint's own sensor may say otherwise by this.",
+                 .optional = true,
+                 .above = 0};
   if (type == Joint::Type::prismatic) {
     inertia.name = "drive_mass_kg";
+    within.name = "coupled_within_m";
+    within.also = "coupled_within_mm";
   }
   return {{.name = "locked",
            .type = Type::flag,
            .doc = "Stands where it is at home while the arm works.",
            .fallback = default_value("false")},
-          inertia};
+          inertia,
+          within};
 }
 
 std::vector<KeySpec> limit_keys(Joint::Type type, bool optional) {

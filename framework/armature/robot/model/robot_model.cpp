@@ -197,7 +197,9 @@ ReasonText RobotModel::contracted(std::span<const double> all, double offset_fac
                                 link.offset);
     }
     const double follows = link.ratio * independent[link.independent] + offset_factor * link.offset;
-    if (std::abs(all[i] - follows) > kCouplingTolerance)
+    const bool is_measured = joint.coupling && joint.coupling->within;
+    if (is_measured && offset_factor == 0) continue;
+    if (std::abs(all[i] - follows) > (is_measured ? *joint.coupling->within : kCouplingTolerance))
       return ReasonText::format(
           "{} = {:.6g} contradicts its coupling to {}, which makes it {:.6g}", joint.name, all[i],
           joints()[static_cast<std::size_t>(joint.coupling->to)].name, follows);

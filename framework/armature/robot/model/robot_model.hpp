@@ -34,6 +34,8 @@ struct Joint {
     int to = 0;
     double ratio = 1;
     double offset = 0;
+    // [rad] or [m] that a sensor of its own may say otherwise; none: 1e-6, and 1e-6 in its rates.
+    std::optional<double> within;
   };
 
   std::string name;
@@ -161,13 +163,13 @@ class RobotModel {
   /// Independent values -> all joints, couplings applied.
   JointVector to_all(const JointVector& independent) const;
   /// All joints -> independent values; a reason when the length is wrong, a value is not finite, a
-  /// coupled joint contradicts its coupling by more than 1e-6, or a locked joint has left its place
-  /// by more than 1e-4 (metres or radians).
+  /// coupled joint contradicts its coupling by more than 1e-6 (or than its `within`), or a locked
+  /// joint has left its place by more than 1e-4 (metres or radians).
   Expected<JointVector> to_independent(const JointVector& all) const;
   /// The same from a list that may have any length, as it comes from outside.
   Expected<JointVector> to_independent(std::span<const double> all) const;
   /// The same of velocities or accelerations: a coupling's offset does not count, and a locked
-  /// joint not at all.
+  /// joint not at all, nor a coupled one that has a `within`: two sensors never agree in rates.
   Expected<JointVector> contract_rates(std::span<const double> all) const;
   /// The same into `independent`: empty, or the reason. Real-time safe.
   ReasonText to_independent(std::span<const double> all, JointVector& independent) const;

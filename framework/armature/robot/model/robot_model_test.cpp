@@ -71,6 +71,19 @@ TEST(RobotModel, ContractsRatesWithoutTheOffsetOfACoupling) {
             "j5 = 0 contradicts its coupling to j2, which makes it -3");
 }
 
+TEST(RobotModel, TakesACoupledJointThatIsMeasuredByItselfWithinWhatIsStated) {
+  RobotParts parts = testing::dental_lamp().parts();
+  parts.joints[3].coupling->within = 2e-3;
+  const RobotModel lamp{parts};
+  EXPECT_EQ(lamp.to_independent(joint_vector({0, 0, 0.5, -0.5019, 0, 0})).value(),
+            joint_vector({0, 0, 0.5, 0, 0}));
+  EXPECT_EQ(lamp.to_independent(joint_vector({0, 0, 0.5, -0.5021, 0, 0})).error().text,
+            "j4 = -0.5021 contradicts its coupling to j3, which makes it -0.5");
+  EXPECT_EQ(lamp.contract_rates(std::vector<double>{0, 0, 0.5, 0.3, 0, 0}).value(),
+            joint_vector({0, 0, 0.5, 0, 0}))
+      << "two encoders never agree in their rates";
+}
+
 TEST(RobotModel, FoldsTheLimitsOfCoupledJointsIntoTheirLeaders) {
   const RobotModel robot = testing::synthetic_robot(RobotModel::Convention::standard, 3);
   // -2 <= -1.5 q + 0.3 <= 2

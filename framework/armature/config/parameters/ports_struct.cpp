@@ -17,6 +17,7 @@ constexpr std::string_view kUnnamedUnit = "main";
 
 struct Port {
   std::string name, package, message, doc;
+  config::Origin origin;
   std::string_view handle, claim;
   std::vector<std::string> units;
 };
@@ -38,6 +39,7 @@ std::vector<Port> read_ports(const config::Node& manifest, std::string_view dire
               .package = type.substr(0, slash),
               .message = type.substr(std::min(slash + 1, type.size())),
               .doc = map.text("doc", ""),
+              .origin = key_origin,
               .handle = direction == "in" ? "Input" : "Output",
               .claim = direction == "in" ? "input" : "output"};
     if (!type.empty() && (!is_name(port.package) || !is_name(port.message))) {
@@ -52,6 +54,22 @@ std::vector<Port> read_ports(const config::Node& manifest, std::string_view dire
     ports.push_back(std::move(port));
   }
   return ports;
+}
+
+bool share_a_unit(const Port& a, const Port& b) {
+  return std::ranges::find_first_of(a.units, b.units) != a.units.end();
+}
+
+void check_members(const std::vector<Port>& ports, config::Problems& problems) {
+  for (auto port = ports.begin(); port != ports.end(); ++port) {
+    const auto same = std::find_if(ports.begin(), port, [&](const Port& other) {
+      return in_cpp(other.name) == in_cpp(port->name) && share_a_unit(other, *port);
+    });
+    if (same == port) continue;
+    problems.add(port->origin, fmt::format("'{}' and '{}' are both '{}' in the code of one unit; "
+                                           "give one of them another name",
+                                           same->name, port->name, in_cpp(port->name)));
+  }
 }
 
 std::string include_line(std::string_view header) {
@@ -106,6 +124,7 @@ std::string ports_header(const config::Node& manifest,
   const std::string id = id_node ? config::as_text(*id_node, problems).value_or("") : "";
   std::vector<Port> ports = read_ports(manifest, "in", problems);
   std::ranges::copy(read_ports(manifest, "out", problems), std::back_inserter(ports));
+  check_members(ports, problems);
   if (!problems.empty()) return "";
 
   std::set<std::string> includes;

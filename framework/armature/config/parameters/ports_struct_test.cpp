@@ -134,5 +134,12 @@ TEST(TheStructOfPorts, IsNotMadeOfAPortWhoseTypeIsNone) {
             "plugin.yaml:3:8: missing key 'type' in port 'sky'");
 }
 
+TEST(TheStructOfPorts, IsNotMadeOfTwoPortsThatWouldHaveOneMember) {
+  EXPECT_EQ(refusal_of_ports("in:\n  my-sky: {type: std_msgs/Bool}\n"
+                             "out:\n  my_sky: {type: std_msgs/Bool}\n"),
+            "plugin.yaml:5:3: 'my-sky' and 'my_sky' are both 'my_sky' in the code of one unit; "
+            "give one of them another name");
+}
+
 }  // namespace
 }  // namespace armature

@@ -39,15 +39,10 @@ class RemoteTopics {
   void stop_reading() { readers_.clear(); }
 
  private:
-  /// The other processes with a component that has `topic` among its inputs, or its outputs.
-  std::set<std::string> processes_with(const std::string& topic,
-                                       std::vector<PortBinding> ComponentConfig::*ports) const;
   std::string text_of(const std::string& topic, const std::set<std::string>& processes) const;
-  /// How many readers other processes have for `topic`: one for all inputs of a process that take
-  /// samples of the deployment only, and one for those that are open.
-  int readers_elsewhere(const std::string& topic) const;
-  /// The outputs of other processes that write `topic`.
-  std::vector<const PortBinding*> writers_elsewhere(const std::string& topic) const;
+  /// The readers that other processes have for `topic`, by their process: one for all inputs that
+  /// take samples of the deployment only, and one for those that are open.
+  std::set<std::pair<std::string, bool>> readers_elsewhere(const std::string& topic) const;
 
   PluginPtr<Transport> transport_;
   const DeploymentConfig* deployment_;

@@ -230,6 +230,21 @@ std::string DeploymentConfig::host_of(std::string_view process) const {
   return found == components.end() ? std::string{kMainHost} : found->host;
 }
 
+InputFromElsewhere DeploymentConfig::from_elsewhere(const PortBinding& input,
+                                                    std::string_view process) const {
+  InputFromElsewhere from;
+  for (const ComponentConfig& component : components) {
+    if (component.process == process) continue;
+    for (const PortBinding& output : component.outputs) {
+      if (output.topic != input.topic) continue;
+      from.outputs.push_back(&output);
+      from.processes.insert(component.process);
+    }
+  }
+  from.is_numbered = from.outputs.size() == 1 && !input.spec.outside;
+  return from;
+}
+
 bool check_is_deployment(const Node& root, Problems& problems) {
   if (root.find("armature")) return true;
   const std::array<std::pair<std::string_view, std::string_view>, 3> others{

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -77,6 +78,15 @@ struct ComponentConfig {
   }
 };
 
+/// What reaches an input from other processes of the deployment.
+struct InputFromElsewhere {
+  std::vector<const PortBinding*> outputs;  // that write its topic there
+  std::set<std::string> processes;          // that have these
+  /// Its samples have the numbers that their writer gave them. Where there are several writers, or
+  /// other programs may write, they are counted as they come.
+  bool is_numbered = false;
+};
+
 /// `goals:`: a metric of the summary that must not exceed its limit.
 struct Goal {
   std::string metric;
@@ -120,6 +130,8 @@ struct DeploymentConfig {
   int measuring_index(std::string_view component) const;
   /// The host that a process runs on.
   std::string host_of(std::string_view process) const;
+  /// What reaches an input of a component in `process`; valid as long as `components`.
+  InputFromElsewhere from_elsewhere(const PortBinding& input, std::string_view process) const;
 };
 
 /// False, and a problem, when `root` is another file. What that one says must not be told: it may

@@ -45,18 +45,6 @@ std::string wholeness_of(const RunRecorder::Options& options) {
   return options.thin ? "thin" : "yes";
 }
 
-/// The other processes of the deployment that write a topic, one for each writer.
-std::multiset<std::string> writers_elsewhere(const std::string& topic, const std::string& process,
-                                             const DeploymentConfig& deployment) {
-  std::multiset<std::string> writers;
-  for (const ComponentConfig& component : deployment.components) {
-    if (component.process == process) continue;
-    const auto count = std::ranges::count(component.outputs, topic, &PortBinding::topic);
-    for (std::ptrdiff_t i = 0; i < count; ++i) writers.insert(component.process);
-  }
-  return writers;
-}
-
 /// How often messages are kept in a thin recording: twice as often as a page shows them, because
 /// topics near its rate are shown whole.
 std::optional<double> thin_rate_hz(const MessageType& type) {
@@ -141,16 +129,15 @@ void RunRecorder::add(ComponentRunner& runner, const ComponentConfig& config,
   for (const auto& input : runner.inbox().ports()) {
     const auto binding = std::ranges::find(config.inputs, input->spec().name,
                                            [](const PortBinding& port) { return port.spec.name; });
+    const InputFromElsewhere from = deployment.from_elsewhere(*binding, process);
     // What is open may also come from programs that record nothing.
-    const auto writers = input->spec().outside
-                             ? std::multiset<std::string>{}
-                             : writers_elsewhere(binding->topic, process, deployment);
+    const bool is_open = binding->spec.outside;
     component.inputs.push_back(
         {.topic = binding->topic,
          .type = &input->type(),
          .qos = input->spec().qos,
-         .from = fmt::format("{}", fmt::join(std::set(writers.begin(), writers.end()), ",")),
-         .is_of_one_writer = writers.size() == 1});
+         .from = is_open ? "" : fmt::format("{}", fmt::join(from.processes, ",")),
+         .is_numbered = from.is_numbered});
     ports[fmt::format("input {}", index++)] = input->spec().name;
   }
   for (OutputPort& output : runner.outputs()) {
@@ -186,7 +173,7 @@ RunRecorder::Channel& RunRecorder::add_channel(std::uint32_t writer, const Port&
              .type = port.type,
              .qos = port.qos,
              .from = port.from,
-             .is_of_one_writer = port.is_of_one_writer,
+             .is_numbered = port.is_numbered,
              .is_kept = is_kept,
              .thinning = Thinning{options_.thin ? thin_rate_hz(*port.type) : std::nullopt}};
 }
@@ -271,7 +258,7 @@ void RunRecorder::keep(const SampleRef& sample, Time at, Channel& channel) {
                                                 {"qos", std::string{to_string(channel.qos)}},
                                                 {kProcessKey, options_.description.process_()}};
     if (!channel.from.empty()) metadata[kFromKey] = channel.from;
-    if (channel.is_of_one_writer) metadata[kNumberedKey] = "by its writer";
+    if (channel.is_numbered) metadata[kNumberedKey] = "by its writer";
     channel.id =
         queue_.add_channel(channel.topic, std::string{channel.type->dds_name}, std::move(metadata));
   }

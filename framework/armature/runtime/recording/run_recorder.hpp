@@ -67,8 +67,8 @@ class RunRecorder {
     std::string topic;
     const MessageType* type;
     QosProfile qos;
-    std::string from = {};  // the deployment's other processes that write what is read; or ""
-    bool is_of_one_writer = false;  // there
+    std::string from = {};     // the deployment's other processes that write what is read; or ""
+    bool is_numbered = false;  // by its writer there
   };
   /// One that is recorded: its ring, and the call that is being taken from it.
   struct Component {
@@ -98,7 +98,7 @@ class RunRecorder {
     const MessageType* type = nullptr;
     QosProfile qos = QosProfile::state;
     std::string from = {};
-    bool is_of_one_writer = false;
+    bool is_numbered = false;
     bool is_kept = false;
     Thinning thinning{std::nullopt};
     std::optional<std::uint16_t> id = {};  // in the file, from its first sample on

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "armature/messages/header.hpp"
+#include "armature/values/monotonic_now.hpp"
 #include "watch/outsider.hpp"
 
 namespace armature {

@@ -17,6 +17,7 @@
 #include "armature/recording/file_lock.hpp"
 #include "armature/runtime/deployment_file/record_config.hpp"
 #include "armature/values/json_text.hpp"
+#include "armature/values/monotonic_now.hpp"
 #include "exit_code.hpp"
 #include "record/destination.hpp"
 #include "record/recorder.hpp"

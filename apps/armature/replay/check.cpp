@@ -15,6 +15,7 @@
 #include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/values/json_text.hpp"
+#include "armature/values/monotonic_now.hpp"
 #include "exit_code.hpp"
 #include "replay/exchanged_samples.hpp"
 #include "replay/message_difference.hpp"

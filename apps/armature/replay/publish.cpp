@@ -23,6 +23,7 @@
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/values/json_text.hpp"
+#include "armature/values/monotonic_now.hpp"
 #include "exit_code.hpp"
 #include "replay/recorded_qos.hpp"
 #include "standard_output.hpp"

@@ -11,6 +11,7 @@
 
 #include "armature/config/problems.hpp"
 #include "armature/recording/recorded_processes.hpp"
+#include "armature/values/monotonic_now.hpp"
 #include "replay/recorded_qos.hpp"
 #include "watch/outsider.hpp"
 

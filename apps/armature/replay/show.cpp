@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "armature/values/monotonic_now.hpp"
 #include "exit_code.hpp"
 #include "monitor/monitor.hpp"
 #include "replay/recorded_topics.hpp"

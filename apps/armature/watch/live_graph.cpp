@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/values/monotonic_now.hpp"
 #include "exit_code.hpp"
 #include "terminal_text.hpp"
 #include "watch/seen_deployments.hpp"

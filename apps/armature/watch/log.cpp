@@ -15,6 +15,7 @@
 #include "armature/messages/rcl_interfaces.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/values/json_text.hpp"
+#include "armature/values/monotonic_now.hpp"
 #include "colour.hpp"
 #include "date_text.hpp"
 #include "exit_code.hpp"

@@ -17,6 +17,7 @@
 #include "armature/bus/topic_name.hpp"
 #include "armature/config/problems.hpp"
 #include "armature/runtime/plugins/described_messages.hpp"
+#include "armature/values/monotonic_now.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
 #include "standard_output.hpp"
@@ -36,10 +37,6 @@ void leave_in_order() {
 }
 
 bool left() { return g_leaves; }
-
-Time monotonic_now() {
-  return Time{Duration{std::chrono::steady_clock::now().time_since_epoch()}.count()};
-}
 
 bool wait_for(Duration time) {
   const Time end = monotonic_now() + time;

@@ -26,8 +26,6 @@ inline constexpr Duration kDiscovery = seconds(1.5);
 /// nobody reads what is printed: a process that is killed in the midst of DDS makes those wait that
 /// send to it.
 void leave_in_order();
-/// Of the monotonic clock.
-Time monotonic_now();
 /// It is time to leave.
 bool left();
 /// Waits; false as soon as it is time to leave.

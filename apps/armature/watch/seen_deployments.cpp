@@ -9,6 +9,7 @@
 
 #include "armature/bus/topic_name.hpp"
 #include "armature/messages/stamp.hpp"
+#include "armature/values/monotonic_now.hpp"
 
 namespace armature {
 namespace {

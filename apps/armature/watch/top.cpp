@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "armature/values/json_text.hpp"
+#include "armature/values/monotonic_now.hpp"
 #include "exit_code.hpp"
 #include "standard_output.hpp"
 #include "terminal_text.hpp"

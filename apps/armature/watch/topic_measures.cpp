@@ -12,6 +12,7 @@
 #include "armature/messages/known_types.hpp"
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/values/json_text.hpp"
+#include "armature/values/monotonic_now.hpp"
 #include "exit_code.hpp"
 #include "watch/sample_count.hpp"
 #include "watch/topic_meter.hpp"

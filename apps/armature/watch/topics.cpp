@@ -11,6 +11,7 @@
 #include "armature/messages/cdr_to_json.hpp"
 #include "armature/messages/known_types.hpp"
 #include "armature/values/json_text.hpp"
+#include "armature/values/monotonic_now.hpp"
 #include "exit_code.hpp"
 #include "readable_json.hpp"
 #include "terminal_text.hpp"

@@ -4,13 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "armature/values/json_text.hpp"
+#include "armature/values/monotonic_now.hpp"
 #include "armature/values/utf8.hpp"
 #include "armature/web/foxglove_messages.hpp"
 
@@ -69,10 +69,6 @@ std::uint32_t id_of(const nlohmann::json& said) {
   throw std::invalid_argument("an id is a whole number from 0 to 4294967295, not " + what);
 }
 
-Time steady_now() {
-  return Time{Duration{std::chrono::steady_clock::now().time_since_epoch()}.count()};
-}
-
 }  // namespace
 
 FoxgloveBridge::FoxgloveBridge(TopicSource& topics, Options options)
@@ -101,7 +97,7 @@ void FoxgloveBridge::run(const std::function<bool()>& ends) {
   Time next, next_play;
   auto status = Playback::Status::paused;
   while (!ends()) {
-    const Time now = steady_now();
+    const Time now = monotonic_now();
     if (now >= next) {
       look();
       tell_dropped();
@@ -130,7 +126,7 @@ void FoxgloveBridge::opened(Client client, std::string_view protocol) {
             {"name", "armature"},
             {"capabilities", Json::array()},
             {"metadata", Json::object()},
-            {"sessionId", fmt::format("{}", steady_now().ns)}};
+            {"sessionId", fmt::format("{}", monotonic_now().ns)}};
   if (const Playback* playback = options_.playback) {
     subscriber.controls = protocol == kWithPlayback;
     info["capabilities"].push_back("time");

@@ -4,19 +4,19 @@
 #include <algorithm>
 #include <chrono>
 
+#include "armature/values/monotonic_now.hpp"
+
 namespace armature {
 
 namespace {
-
-Duration monotonic_now() { return std::chrono::steady_clock::now().time_since_epoch(); }
 
 /// Both clocks at one instant: read again when something came between.
 Duration measured_offset() {
   constexpr Duration kAtOnce = std::chrono::microseconds{100};
   Duration offset{0};
   for (int attempt = 0; attempt < 10; ++attempt) {
-    const Duration before = monotonic_now();
-    offset = std::chrono::system_clock::now().time_since_epoch() - before;
+    const Time before = monotonic_now();
+    offset = std::chrono::system_clock::now().time_since_epoch() - Duration{before.ns};
     if (monotonic_now() - before < kAtOnce) break;
   }
   return offset;
@@ -31,11 +31,13 @@ SystemClock::SystemClock(Duration unix_minus_monotonic) {
 }
 
 Time SystemClock::now() const {
-  const Duration monotonic = monotonic_now();
-  return {(monotonic + offset_at(monotonic)).count()};
+  const Time monotonic = monotonic_now();
+  return monotonic + offset_at(Duration{monotonic.ns});
 }
 
-Duration SystemClock::unix_minus_monotonic() const { return offset_at(monotonic_now()); }
+Duration SystemClock::unix_minus_monotonic() const {
+  return offset_at(Duration{monotonic_now().ns});
+}
 
 Duration SystemClock::offset_at(Duration monotonic) const {
   constexpr std::int64_t kSlowness = 2000;  // 1 / 0.5 ms in a second
@@ -50,7 +52,7 @@ Duration SystemClock::offset_at(Duration monotonic) const {
 
 void SystemClock::follow(Duration unix_minus_monotonic) {
   const std::size_t next = (course_.load(std::memory_order_relaxed) + 1) % courses_.size();
-  const Duration now = monotonic_now();
+  const Duration now{monotonic_now().ns};
   courses_[next].since.store(now.count(), std::memory_order_relaxed);
   courses_[next].from.store(offset_at(now).count(), std::memory_order_relaxed);
   courses_[next].to.store(unix_minus_monotonic.count(), std::memory_order_relaxed);

@@ -3,12 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <cstdio>
 #include <utility>
 
 #include "armature/messages/std_msgs.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/values/monotonic_now.hpp"
 
 namespace armature {
 namespace {
@@ -16,11 +16,6 @@ namespace {
 constexpr Duration kTellEvery = seconds(0.1);
 constexpr std::size_t kMostWaiting = 100;  // messages that nobody has taken
 constexpr std::string_view kLines = "lines ", kAsk = "ask ", kTold = "told ";
-
-/// Of silence, which no step of the system clock changes.
-Time steady_now() {
-  return Time{Duration{std::chrono::steady_clock::now().time_since_epoch()}.count()};
-}
 
 TopicSpec spec(const HostLinkEnd& end, bool to_main) {
   return {.name = fmt::format("rt/{}/hosts/{}/{}", end.deployment, end.host,
@@ -105,7 +100,9 @@ HostLink::HostLink(Transport& transport, HostLinkEnd end, const Clock& clock)
 
 HostLink::~HostLink() = default;
 
-bool HostLink::lost() const { return !other().empty() && steady_now() - lines_.heard() > kSilence; }
+bool HostLink::lost() const {
+  return !other().empty() && monotonic_now() - lines_.heard() > kSilence;
+}
 
 void HostLink::turn_away() {
   lines_.turn_away();
@@ -126,7 +123,7 @@ std::optional<std::string> HostLink::receive(std::string_view process) {
 }
 
 void HostLink::update() {
-  const Time now = steady_now();
+  const Time now = monotonic_now();
   for (const std::string& message : inbox_->take_messages()) lines_.take(message, now);
   while (const auto line = lines_.receive()) {
     const std::size_t space = line->find(' ');

@@ -36,7 +36,8 @@ void Discovery::participant_gone(const GuidPrefix& participant, bool lost) {
       return entry.first.participant == participant && watcher_.is_peer &&
              watcher_.is_peer(entry.second.tag);
     });
-    lost = lost && ignored_.erase(participant) == 0;
+    const bool is_missed = ignored_.erase(participant) == 0;
+    lost = lost && is_missed;
     participants_.erase(participant);
     std::erase_if(endpoints_,
                   [&](const auto& entry) { return entry.first.participant == participant; });

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -10,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "armature/recording/mcap_reader.hpp"
 #include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
 
@@ -94,6 +96,54 @@ TEST(TwoProcesses, OneThatFailsIsATroubleInBoth) {
   }
   EXPECT_GT(aside, 0U);
   EXPECT_GT(boxes, aside);
+}
+
+/// The beats that process 'aside' itself has recorded in the black boxes there: how many, and the
+/// number of the last. They are joined first.
+struct BeatsInBoxes {
+  int count = 0;
+  std::uint32_t last = 0;
+};
+BeatsInBoxes beats_in_boxes(const TemporaryFolder& folder) {
+  const std::string all = folder / "all.mcap";
+  std::vector<std::string> merge{armature(), "record", "--merge", "-o", all};
+  for (const auto& entry : std::filesystem::directory_iterator{folder.path()}) {
+    merge.push_back(entry.path());
+  }
+  const CommandResult merged = run_command(merge);
+  EXPECT_EQ(merged.exit_code, 0) << merged.err;
+  BeatsInBoxes beats;
+  McapReader reader{all};
+  while (const auto message = reader.next()) {
+    const McapChannel& channel = *message->channel;
+    if (channel.topic != "/pulse/beat" || channel.metadata.contains("from")) continue;
+    ++beats.count;
+    beats.last = message->sequence;
+  }
+  return beats;
+}
+
+TEST(TwoProcesses, ATroubleOfOneIsInTheBlackBoxOfTheOtherWhileTheRunGoesOn) {
+  const TemporaryFolder folder;
+  const auto run = run_pulse(
+      {"components.beat.params.beats=100", "components.ear.params.needs_beats=true",
+       "components.ear.params.listens_s=3",
+       "record={file: \"" + (folder / "box-%H.mcap").string() + "\", around_faults_s: 5}"});
+  EXPECT_EQ(run.command.exit_code, 0) << run.text();
+  EXPECT_EQ(beats_in_boxes(folder).last, 100U) << "behind which the ear had trouble";
+}
+
+TEST(ThreeProcesses, ATroubleOfOneIsInTheBlackBoxesOfAllWhileTheRunGoesOn) {
+  const TemporaryFolder folder;
+  const auto run = run_pulse(
+      {"components.failing={plugin: test/beat, process: third, topics: failing, on_fault: isolate, "
+       "params: {throws_in: step}}",
+       "components.ear.params.listens_s=2",
+       "record={file: \"" + (folder / "box-%H.mcap").string() + "\", around_faults_s: 0.5}"});
+  EXPECT_EQ(run.status(), "fault") << run.text();
+  const BeatsInBoxes beats = beats_in_boxes(folder);
+  EXPECT_GT(beats.count, 20) << run.text();
+  EXPECT_LT(beats.count, 100) << "only those around the trouble";
 }
 
 TEST(TwoProcesses, OneWhoseRecordingCannotBeEndedIsAFault) {

@@ -251,7 +251,7 @@ int run_other(const RunOptions& options, const Process& process, Deployment& dep
   check_recording(deployment.config(), process.name, process.origin.start);
   deployment.connect(plugins, process.domain, process.origin.run);
   begin_recording(deployment, process.name, process.origin.start);
-  watch.on_clock([&](Duration offset) { deployment.follow_clock(offset); });
+  watch.set_deployment(deployment);
   deployment.run(watch);
   int code = process.name == kMainProcess
                  ? conclude_main_by_hand(options, deployment, watch, console, end)

@@ -23,6 +23,8 @@ constexpr std::chrono::seconds kHostsMeetWithin{5 * kMeetWithin};
 /// How long the main process, which looks every 20 ms, may take to answer that another one stops.
 constexpr std::chrono::seconds kAnswersWithin{kSanitized ? 5 : 1};
 
+std::string trouble_line(Time at) { return fmt::format("trouble {}", at.ns); }
+
 bool has_loopback() {
   return std::ranges::any_of(network_interfaces(), [](const NetworkInterface& one) {
     return one.up && std::ranges::find(one.addresses, "127.0.0.1") != one.addresses.end();
@@ -59,6 +61,14 @@ void MainWatch::tell_trouble(const std::string& text) {
 
 void MainWatch::tell_notes() {
   while (const auto note = children_->next_note()) tell_trouble(*note);
+}
+
+void MainWatch::pass_on_troubles() {
+  if (const auto own = deployment_->next_trouble()) children_->send(trouble_line(*own));
+  while (const auto other = children_->next_trouble()) {
+    deployment_->mark_trouble(*other);
+    children_->send(trouble_line(*other));
+  }
 }
 
 bool MainWatch::may_start(const std::optional<std::string>& waiting) {
@@ -116,6 +126,7 @@ std::optional<std::string> MainWatch::stop_cause() {
   tell_clock_step();
   children_->update();
   tell_notes();
+  if (started_) pass_on_troubles();
   if (auto cause = interruption_now()) {
     const auto host = started_ ? std::nullopt : children_->missing_host();
     if (host) throw std::runtime_error{*cause + " while it waited for host '" + *host + "'"};
@@ -135,6 +146,7 @@ void MainWatch::stopping(const std::string& cause, bool scenario_over) {
 bool MainWatch::may_end(const std::vector<std::string>& moving, Duration left) {
   tell_clock_step();
   children_->update();
+  pass_on_troubles();
   if (end_signals::count() > told_signals_) {
     told_signals_ = end_signals::count();
     tell_step(
@@ -174,8 +186,15 @@ void ChildWatch::hear() {
     scenario_over_ = scenario_over_ || *line == "over";
     told_end_ = told_end_ || *line == "end";
     if (line->starts_with("stop ")) stop_ = line->substr(5);
-    if (line->starts_with("clock ")) follow_clock_(Duration{std::stoll(line->substr(6))});
+    if (line->starts_with("trouble ")) deployment_->mark_trouble(Time{std::stoll(line->substr(8))});
+    if (line->starts_with("clock ")) {
+      deployment_->follow_clock(Duration{std::stoll(line->substr(6))});
+    }
   }
+}
+
+void ChildWatch::tell_trouble() {
+  if (const auto at = deployment_->next_trouble()) control_.send(trouble_line(*at));
 }
 
 bool ChildWatch::may_start(const std::optional<std::string>& waiting) {
@@ -194,6 +213,7 @@ bool ChildWatch::may_start(const std::optional<std::string>& waiting) {
 std::optional<std::string> ChildWatch::stop_cause() {
   clock_step();
   hear();
+  if (started_) tell_trouble();
   if (control_.lost()) return "the main process is gone";
   if (told_end_) return "the main process ends it";
   if (!stop_.empty()) return stop_;
@@ -213,6 +233,7 @@ void ChildWatch::stopping(const std::string& cause, bool scenario_over) {
 bool ChildWatch::may_end(const std::vector<std::string>& moving, Duration left) {
   clock_step();
   hear();
+  tell_trouble();
   if (moving.empty()) {
     say(said_moving_, "moving");
   } else {

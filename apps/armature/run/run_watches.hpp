@@ -2,7 +2,6 @@
 #pragma once
 
 #include <chrono>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -64,6 +63,8 @@ class MainWatch final : public ProcessWatch {
   void tell_trouble(const std::string& text);
   void tell_clock_step();
   void tell_notes();
+  /// Of any process to all others, so that their black boxes have what happened around it.
+  void pass_on_troubles();
   [[noreturn]] void refuse_to_start(const std::string& waiting) const;
 
   ChildProcesses* children_;
@@ -93,10 +94,9 @@ class ChildWatch final : public ProcessWatch {
   void stopping(const std::string& cause, bool scenario_over) override;
   bool may_end(const std::vector<std::string>& moving, Duration left) override;
 
-  /// Who is told the main process' clock as the agent of this host sees it.
-  void on_clock(std::function<void(Duration unix_minus_monotonic)> follow) {
-    follow_clock_ = std::move(follow);
-  }
+  /// What runs here: during the run it is told the main process' clock, as the agent of this host
+  /// sees it, and troubles of the other processes.
+  void set_deployment(Deployment& deployment) { deployment_ = &deployment; }
   /// True without a main process.
   bool alone() const { return control_.file() < 0; }
   /// Tells the main process what failed here, "" for nothing.
@@ -107,13 +107,14 @@ class ChildWatch final : public ProcessWatch {
  private:
   using SteadyClock = std::chrono::steady_clock;
   void hear();
+  void tell_trouble();
   /// True once the main process has let a stop of this one unanswered for too long; told once.
   bool main_is_silent();
   /// Sends a line unless it is the last one of its kind again.
   void say(std::string& last, std::string line);
 
   SocketChannel control_;
-  std::function<void(Duration)> follow_clock_ = [](Duration) {};
+  Deployment* deployment_ = nullptr;
   bool started_ = false, scenario_over_ = false, told_end_ = false;
   std::string stop_;      // as the main process said
   std::string own_stop_;  // which it is to answer

@@ -225,7 +225,7 @@ void McapQueue::keep(Message& message) {
 void McapQueue::open(const std::filesystem::path& file) { writer_.emplace(file, options_); }
 
 void McapQueue::begin_around(Time moment) {
-  until_ = moment + around_->before_and_after;
+  until_ = std::max(until_, moment + around_->before_and_after);
   if (writer_) return;
   open(around_->file(moment));
   // A file is as long as what happened in it: what is older arrives at its beginning.

@@ -317,9 +317,19 @@ void Deployment::record(const std::filesystem::path& file,
 
 void Deployment::mark_trouble(StatusReporter::State state) {
   if (state == StatusReporter::State::ok) return;
-  if (RunRecorder* recorder = marked_.load(std::memory_order_acquire)) {
-    recorder->mark_trouble(clock_->now());
-  }
+  const Time now = clock_->now();
+  trouble_ns_.store(now.ns, std::memory_order_relaxed);
+  mark_trouble(now);
+}
+
+void Deployment::mark_trouble(Time at) {
+  if (RunRecorder* recorder = marked_.load(std::memory_order_acquire)) recorder->mark_trouble(at);
+}
+
+std::optional<Time> Deployment::next_trouble() {
+  const std::int64_t ns = trouble_ns_.exchange(kNoTrouble, std::memory_order_relaxed);
+  const bool is_told = ns != kNoTrouble && config_.record && config_.record->around_faults;
+  return is_told ? std::optional{Time{ns}} : std::nullopt;
 }
 
 void Deployment::connect(PluginRegistry& plugins, int domain, const std::string& run) {

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <filesystem>
 #include <functional>
@@ -95,6 +96,12 @@ class Deployment {
   /// Tells the operator something of the whole run, and whoever reads /rosout; `state`: what it is
   /// about, `ok` for whatever is no trouble.
   void tell(const std::string& text, StatusReporter::State state);
+  /// Has the black box written around a trouble of another process, at `at` by the deployment's
+  /// clock.
+  void mark_trouble(Time at);
+  /// When there was trouble in this process since the last call, of several the last time; only of
+  /// a run with a black box.
+  std::optional<Time> next_trouble();
   /// Whether a component had finished when the run began to stop.
   bool scenario_over() const { return scenario_over_; }
   /// True when the run ended because its time limit was over.
@@ -176,6 +183,8 @@ class Deployment {
   std::vector<std::unique_ptr<ComponentRunner>> runners_;  // in the order of the graph
   std::unique_ptr<RunRecorder> recorder_;                  // null: none
   std::atomic<RunRecorder*> marked_{nullptr};              // told of troubles
+  static constexpr std::int64_t kNoTrouble = -1;
+  std::atomic<std::int64_t> trouble_ns_{kNoTrouble};  // the last that nobody has asked for
   std::optional<Watchdog> watchdog_;
   std::function<void(const std::string&)> print_note_;
   bool scenario_over_ = false;  // a component has finished

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <csignal>
+#include <cstdlib>
 #include <thread>
 #include <utility>
 
@@ -19,6 +20,14 @@ namespace {
 
 /// What is moving in a process that has not said so yet.
 const std::string kNotSaid = "?";
+
+template <class T>
+std::optional<T> next_of(std::deque<T>& waiting) {
+  if (waiting.empty()) return std::nullopt;
+  T next = std::move(waiting.front());
+  waiting.pop_front();
+  return next;
+}
 
 }  // namespace
 
@@ -88,6 +97,7 @@ void ChildProcesses::hear(Child& child) {
       if (!child.is_agent()) child.moving = kNotSaid;
     }
     if (word == "moving") child.moving = text;
+    if (word == "trouble") troubles_.push_back(Time{std::atoll(text.c_str())});
     if (word == "timing") child.timing.push_back(text);
     if (word == "fault") {
       child.told_fault = true;
@@ -181,12 +191,9 @@ std::optional<std::string> ChildProcesses::stop_cause() const {
   return std::nullopt;
 }
 
-std::optional<std::string> ChildProcesses::next_note() {
-  if (notes_.empty()) return std::nullopt;
-  std::string note = std::move(notes_.front());
-  notes_.pop_front();
-  return note;
-}
+std::optional<std::string> ChildProcesses::next_note() { return next_of(notes_); }
+
+std::optional<Time> ChildProcesses::next_trouble() { return next_of(troubles_); }
 
 std::vector<std::string> ChildProcesses::moving() const {
   std::vector<std::string> moving;

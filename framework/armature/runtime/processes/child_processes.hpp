@@ -28,10 +28,11 @@ namespace armature ARMATURE_EXPORT {
 ///   over              the scenario is over, and `stop` follows
 ///   stop TEXT         it is stopping, and why
 ///   moving TEXT       while it is stopping: what is not at rest; nothing when all is
+///   trouble NS        that something has gone wrong in it then, by the deployment's clock [ns]
 ///   fault TEXT        what failed in it
 ///   timing TEXT       how late and how long an executor or a component of it was (run_timing.hpp)
-/// and the main one: start, over, stop TEXT, end. A process whose main one is gone comes to rest by
-/// itself and ends. The agent of a host says, of itself and of its processes:
+/// and the main one: start, over, trouble NS, stop TEXT, end. A process whose main one is gone
+/// comes to rest by itself and ends. The agent of a host says, of itself and of its processes:
 ///   here FINGERPRINT  it waits to be welcomed; `refuse TEXT`: it does not fit
 ///   note TEXT         what the operator is to know
 ///   ended TEXT        how it has ended
@@ -75,6 +76,8 @@ class ChildProcesses {
   /// What the operator is to know, each once: how one was lost without which the run goes on, what
   /// the agent of a host says.
   std::optional<std::string> next_note();
+  /// When there was trouble in one of them, each once.
+  std::optional<Time> next_trouble();
   /// What is not at rest, by process; one that has ended is.
   std::vector<std::string> moving() const;
   /// What went wrong with them: ended by themselves, failed, were stopped for too long.
@@ -119,6 +122,7 @@ class ChildProcesses {
   std::deque<Child> children_;  // those of a host go before it
   bool begun_ = false, scenario_over_ = false;
   std::deque<std::string> notes_;  // not told yet
+  std::deque<Time> troubles_;      // the same
   std::vector<std::string> faults_;
 };
 

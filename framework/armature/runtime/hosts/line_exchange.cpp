@@ -8,8 +8,9 @@
 namespace armature {
 namespace {
 
-constexpr std::string_view kAnybody = "*";
+constexpr std::string_view kAnybody = "*", kCut = "...";
 constexpr std::size_t kLongestMessage = 32000;
+constexpr std::size_t kLongestLine = 8000;  // so that there is one in every message
 
 std::string_view first_part(std::string_view& text, char end) {
   const std::size_t size = std::min(text.find(end), text.size());
@@ -29,6 +30,7 @@ std::optional<std::uint64_t> number(std::string_view text) {
 
 /// The other end counts lines by their ends.
 void LineExchange::send(std::string line) {
+  if (line.size() > kLongestLine) line.replace(kLongestLine - kCut.size(), line.npos, kCut);
   std::ranges::replace(line, '\n', ' ');
   if (line.empty()) line = " ";
   unacknowledged_.push_back(std::move(line));

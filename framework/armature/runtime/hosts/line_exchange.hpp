@@ -28,7 +28,8 @@ class LineExchange {
   /// Forgets the other end, what it said and what it was to be told, and never hears it again.
   void turn_away();
 
-  /// A line end in `line` arrives as a blank, and so does an empty line.
+  /// A line end in `line` arrives as a blank, and so does an empty line; of one that is longer than
+  /// 8,000 bytes the beginning arrives, with "..." behind it.
   void send(std::string line);
   /// How many lines wait to be acknowledged.
   std::size_t waiting() const { return unacknowledged_.size(); }

@@ -80,6 +80,19 @@ TEST(LineExchange, GoesOnAfterALineWithLineEndsAndAnEmptyOne) {
             (std::vector<std::string>{"stop face: step failed: no face ", " ", "end"}));
 }
 
+TEST(LineExchange, CutsALongLineAndGoesOnBehindIt) {
+  LineExchange desk{"desk"}, main{"main"};
+  desk.send("stop " + std::string(40'000, 'x'));
+  desk.send("end");
+  for (int messages = 1; messages <= 2; ++messages) {
+    EXPECT_TRUE(main.take(desk.message(), Time{messages}));
+    EXPECT_TRUE(desk.take(main.message(), Time{messages}));
+  }
+  EXPECT_EQ(received(main),
+            (std::vector<std::string>{"stop " + std::string(8'000 - 5 - 3, 'x') + "...", "end"}));
+  EXPECT_EQ(desk.waiting(), 0U);
+}
+
 TEST(LineExchange, CarriesEveryLineOnceAndInOrderOverAWayThatLosesDoublesAndReorders) {
   const unsigned seed = std::random_device{}();
   SCOPED_TRACE(seed);

@@ -160,6 +160,17 @@ TEST_F(Hosts, AreStoppedTogetherFromEither) {
   }
 }
 
+TEST_F(Hosts, DoNotTakeTheMainProcessForDeadWhileItsOwnComponentsEnd) {
+  auto settings = pulse("0.5");
+  settings.emplace_back("components.mover={plugin: test/mover, process: mover, host: desk}");
+  settings.emplace_back("components.slow={plugin: test/beat, topics: slow, params: {stop_s: 3}}");
+  const auto main = start_main(settings), desk = start_desk(settings);
+  const auto ended = main->finish(kTimeout), desk_ended = desk->finish(kTimeout);
+  EXPECT_EQ(ended.exit_code, 0) << ended.err;
+  EXPECT_EQ(desk_ended.exit_code, 0) << desk_ended.err;
+  EXPECT_THAT(desk_ended.err, Not(HasSubstr("fell silent")));
+}
+
 TEST_F(Hosts, ThatACutCableSeparatesEndEachForItself) {
   const auto main = start_main(pulse("1000")), desk = start_desk(pulse("1000"));
   expect_started(*main, *desk);

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <stop_token>
 #include <utility>
 
 #include "armature/bus/network_interface.hpp"
@@ -22,6 +23,8 @@ constexpr std::chrono::seconds kMeetWithin{kSanitized ? 25 : 5};
 constexpr std::chrono::seconds kHostsMeetWithin{5 * kMeetWithin};
 /// How long the main process, which looks every 20 ms, may take to answer that another one stops.
 constexpr std::chrono::seconds kAnswersWithin{kSanitized ? 5 : 1};
+
+constexpr std::chrono::milliseconds kLook{20};
 
 std::string trouble_line(Time at) { return fmt::format("trouble {}", at.ns); }
 
@@ -162,9 +165,16 @@ void MainWatch::ending() {
   children_->end([this](const std::string& process) {
     return std::ranges::find(with_driver_, process) == with_driver_.end();
   });
+  still_here_ = std::jthread{[this](const std::stop_token& ended) {
+    while (!ended.stop_requested()) {
+      children_->update();
+      std::this_thread::sleep_for(kLook);
+    }
+  }};
 }
 
 std::vector<std::string> MainWatch::end_all() {
+  still_here_ = {};
   children_->end([](const std::string&) { return true; });
   std::vector<std::string> faults = children_->faults();
   for (const std::string& moving : moving_) {

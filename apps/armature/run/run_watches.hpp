@@ -4,6 +4,7 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -79,6 +80,9 @@ class MainWatch final : public ProcessWatch {
   std::string told_missing_;  // host that was waited for
   int told_signals_ = 1;
   std::vector<std::string> moving_;  // in other processes, when the time was over
+  /// Tells other hosts that this process is there while its own components end, which may take
+  /// longer than a host waits. It goes before what it uses.
+  std::jthread still_here_;
 };
 
 /// Of another process: the main one says when to start, to stop and to end. Without a main one (the

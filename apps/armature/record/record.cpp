@@ -5,8 +5,8 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <cstddef>
 #include <iterator>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
@@ -21,7 +21,6 @@
 #include "exit_code.hpp"
 #include "record/destination.hpp"
 #include "record/recorder.hpp"
-#include "record/unheard_writers.hpp"
 #include "shell_word.hpp"
 #include "standard_output.hpp"
 
@@ -47,9 +46,8 @@ class Topics {
     const std::vector<std::string> again = outsider_.dds().watch_again();
     for (const ObservedTopic& topic : outsider_.dds().topics()) {
       const std::string name = ros_topic_name(topic.name);
-      if (const auto watched = watched_.find(name); watched != watched_.end()) {
+      if (watched_.contains(name)) {
         if (std::ranges::find(again, topic.name) != again.end()) {
-          watched->second = topic.endpoints.front();
           told_unheard_.erase(name);
           fmt::print(
               stderr,
@@ -57,7 +55,9 @@ class Topics {
               "from here on, and what was sent before that is missing\n",
               config::in_quotes(name));
         }
-        tell_unheard(name, unheard_writers(topic, watched->second));
+        tell_unheard(name, std::ranges::count_if(topic.endpoints, [](const auto& endpoint) {
+                       return endpoint.writes && !endpoint.is_heard;
+                     }));
         continue;
       }
       const bool is_wanted = options_.topics.empty() ||
@@ -68,7 +68,7 @@ class Topics {
       const auto watching = outsider_.dds().watch(
           topic.name, Duration{0},
           [this, name](const ObservedSample& sample) { recorder_.add(name, sample); });
-      if (watching) watched_.emplace(name, topic.endpoints.front());
+      if (watching) watched_.insert(name);
     }
   }
   std::size_t count() const { return watched_.size(); }
@@ -77,14 +77,14 @@ class Topics {
     std::vector<std::string> missing;
     std::ranges::copy_if(options_.topics, std::back_inserter(missing), [&](const auto& wanted) {
       return std::ranges::none_of(
-          watched_, [&](const auto& watched) { return matches(watched.first, wanted); });
+          watched_, [&](const std::string& watched) { return matches(watched, wanted); });
     });
     return missing;
   }
 
  private:
   /// Once for each topic.
-  void tell_unheard(const std::string& name, int writers) {
+  void tell_unheard(const std::string& name, std::ptrdiff_t writers) {
     if (writers == 0 || !told_unheard_.insert(name).second) return;
     fmt::print(stderr,
                "armature: {} of the writers of {} are not recorded: a topic is read with the type "
@@ -95,8 +95,7 @@ class Topics {
 
   const RecordOptions& options_;
   Recorder& recorder_;
-  std::map<std::string, ObservedEndpoint> watched_;  // with whom their readers were made for
-  std::set<std::string> told_unheard_;
+  std::set<std::string> watched_, told_unheard_;
   Outsider outsider_;  // goes before what its callbacks use
 };
 

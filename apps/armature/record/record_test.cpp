@@ -24,7 +24,6 @@
 #include "exit_code.hpp"
 #include "record/destination.hpp"
 #include "record/merge.hpp"
-#include "record/unheard_writers.hpp"
 
 namespace armature {
 namespace {
@@ -525,25 +524,6 @@ TEST(Info, SaysThatAFileIsWholeAndHowOftenATopicCameOnlyWhenItHasReadAllOfIt) {
   bytes[places_of(mcap::Op::chunk, bytes).at(1) + 60] ^= 0x01;
   file.replace(bytes);
   EXPECT_EQ(info_of(file.path(), false)["whole"], nlohmann::json{}) << "nobody has looked";
-}
-
-TEST(ARecordedTopic, HasWritersThatAreNotHeardWhereTypeOrQosDoNotMatchThoseOfTheFirst) {
-  const ObservedEndpoint latched{
-      .writes = true, .owner = "a", .type = "T", .reliable = true, .transient_local = true};
-  ObservedEndpoint state = latched, sensor = latched, other = latched, reader = latched;
-  state.transient_local = false;
-  sensor.transient_local = sensor.reliable = false;
-  other.type = "U";
-  reader.type = "U";
-  reader.writes = false;
-  const ObservedTopic topic{.name = "rt/a",
-                            .types = {"T", "U"},
-                            .writers = 4,
-                            .readers = 1,
-                            .endpoints = {latched, state, sensor, other, reader}};
-  EXPECT_EQ(unheard_writers(topic, latched), 3);
-  EXPECT_EQ(unheard_writers(topic, state), 2) << "a latched one is heard";
-  EXPECT_EQ(unheard_writers(topic, sensor), 1);
 }
 
 TEST(JoinedRecording, IsForItsUserAloneAndFollowsNoLink) {

@@ -76,7 +76,7 @@ std::vector<TopicSource::Topic> DdsTopics::topics() const {
       tell_once(line, line);
       continue;
     }
-    tell_conflicts(topic);
+    tell_unheard(topic);
     topics.push_back({.name = ros_topic_name(topic.name),
                       .type = read.type,
                       .keeps = read.transient_local ? kKept : 0});
@@ -104,14 +104,16 @@ bool DdsTopics::is_believed(const std::string& topic, const ObservedSample& samp
   return false;
 }
 
-void DdsTopics::tell_conflicts(const ObservedTopic& topic) const {
+void DdsTopics::tell_unheard(const ObservedTopic& topic) const {
   const std::string& shown = topic.endpoints.front().type;
-  for (const ObservedEndpoint& endpoint : topic.endpoints) {
-    if (!endpoint.writes || endpoint.type == shown) continue;
-    tell_once(endpoint.owner + " " + topic.name,
-              fmt::format("a writer of {} writes '{}', too, as {}: it is shown as {}, and what "
-                          "that one writes is not",
-                          endpoint.owner, ros_topic_name(topic.name), endpoint.type, shown));
+  for (const ObservedEndpoint& writer : topic.endpoints) {
+    if (!writer.writes || writer.is_heard) continue;
+    const std::string how = writer.type == shown
+                                ? "with less QoS than the writer that is shown"
+                                : fmt::format("as {}: it is shown as {}", writer.type, shown);
+    tell_once(writer.owner + " " + topic.name,
+              fmt::format("a writer of {} writes '{}', too, {}, and what that one writes is not",
+                          writer.owner, ros_topic_name(topic.name), how));
   }
 }
 

@@ -20,9 +20,10 @@ class DdsTopics final : public TopicSource {
  public:
   /// Joins the domain with the observer among `plugins`, which outlive this. Throws PluginError
   /// with the reason when the domain cannot be joined. `on_conflict` is told once, by `topics`, of
-  /// each program that writes a topic as another type than the one that is shown, of each topic
-  /// that is read anew because it is written with another type or less QoS now, and of each program
-  /// that speaks in the name of a deployment that it is no part of.
+  /// each program that writes a topic as another type than the one that is shown, or with less QoS,
+  /// and is not heard, of each topic that is read anew because it is written with another type or
+  /// less QoS now, and of each program that speaks in the name of a deployment that it is no part
+  /// of.
   DdsTopics(PluginRegistry& plugins, const NetworkOptions& network,
             std::function<void(const std::string&)> on_conflict);
 
@@ -39,7 +40,7 @@ class DdsTopics final : public TopicSource {
   /// On a thread of DDS.
   bool is_believed(const std::string& topic, const ObservedSample& sample) const;
   std::set<std::string> take_not_believed() const;
-  void tell_conflicts(const ObservedTopic& topic) const;
+  void tell_unheard(const ObservedTopic& topic) const;
   /// At most a hundred, each once: `what` tells them apart.
   void tell_once(const std::string& what, const std::string& text) const;
 

@@ -30,14 +30,14 @@ template <class Message>
 class TopicWriter {
  public:
   TopicWriter(int domain, const std::string& deployment,
-              const std::string& topic = "rt/lamp/component_states")
+              const std::string& topic = "rt/lamp/component_states",
+              QosProfile qos = QosProfile::state)
       : transport_{std::move(*FastDdsTransport::make({.network = {.domain = domain},
                                                       .deployment = deployment,
                                                       .fingerprint = std::string(64, '0'),
                                                       .now = [] { return Time{1}; }}))},
         samples_{message_type<Message>(), 16},
-        writer_{std::move(
-            *transport_->advertise({topic, &message_type<Message>(), QosProfile::state}))} {}
+        writer_{std::move(*transport_->advertise({topic, &message_type<Message>(), qos}))} {}
 
   void write(const Message& message) {
     SampleRef sample = samples_.loan();
@@ -88,6 +88,25 @@ bool is_so_at_last(const auto& condition) {
     std::this_thread::sleep_for(std::chrono::milliseconds{50});
   }
   return condition();
+}
+
+TEST(DdsTopicsTest, AWriterThatOffersLessThanTheOneThatIsShownIsTold) {
+  const int domain = unique_dds_domain();
+  std::vector<std::string> told;
+  const DdsTopics topics{
+      built_plugins(), {.domain = domain}, [&](const std::string& line) { told.push_back(line); }};
+  const TopicWriter<msg::TaskState> lamp{domain, "lamp", "rt/lamp/task", QosProfile::latched};
+  const TopicWriter<msg::TaskState> stranger{domain, "stranger", "rt/lamp/task"};
+  const auto tells = [&] {
+    static_cast<void>(topics.topics());
+    return !told.empty();
+  };
+  EXPECT_TRUE(is_so_at_last(tells));
+  EXPECT_THAT(told,
+              testing::ElementsAre(testing::AllOf(
+                  testing::HasSubstr("deployment 'stranger'"),
+                  testing::HasSubstr("writes '/lamp/task', too, with less QoS than the writer "
+                                     "that is shown, and what that one writes is not"))));
 }
 
 TEST(DdsTopicsTest, NobodyButADeploymentIsBelievedHowItIsAndWhatIsSaidInItsName) {

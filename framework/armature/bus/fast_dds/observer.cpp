@@ -52,6 +52,13 @@ ObservedEndpoint observed(const Endpoint& endpoint, const Discovery& discovery) 
   return seen;
 }
 
+/// Whether a reader that is made for the writer `read_like` hears another one: it asks for no more
+/// than that one offers.
+bool hears(const Endpoint& read_like, const Endpoint& writer) {
+  return writer.type == read_like.type && (writer.reliable || !read_like.reliable) &&
+         (writer.transient_local || !read_like.transient_local);
+}
+
 using OnSample = std::function<void(const ObservedSample&)>;
 
 class Watch final : public dds::DataReaderListener {
@@ -66,12 +73,8 @@ class Watch final : public dds::DataReaderListener {
   /// The name that was asked for, and that of DDS.
   const std::string& asked() const { return asked_; }
   const std::string& topic() const { return read_like_.topic; }
+  const Endpoint& read_like() const { return read_like_; }
   const OnSample& on_sample() const { return on_sample_; }
-  /// Whether it asks a writer of its topic for no more than that one offers.
-  bool hears(const Endpoint& writer) const {
-    return writer.type == read_like_.type && (writer.reliable || !read_like_.reliable) &&
-           (writer.transient_local || !read_like_.transient_local);
-  }
 
   void on_data_available(dds::DataReader* from) override {
     const std::scoped_lock lock{mutex_};
@@ -121,6 +124,8 @@ class Observer final : public DdsObserver {
       if (std::ranges::find(texts, text) == texts.end()) texts.push_back(text);
     };
     const Discovery& discovery = participant_->discovery();
+    std::map<std::string, Endpoint> read_like;  // by topic
+    for (const auto& watch : watches_) read_like.emplace(watch->topic(), watch->read_like());
     auto endpoints = named_endpoints();
     std::ranges::stable_sort(endpoints, {}, place);
     for (const Endpoint& endpoint : endpoints) {
@@ -129,7 +134,10 @@ class Observer final : public DdsObserver {
       add_once(topic.types, endpoint.type);
       if (endpoint.tag.ours) add_once(topic.deployments, endpoint.tag.deployment);
       ++(endpoint.writes ? topic.writers : topic.readers);
+      const Endpoint& first =
+          read_like.try_emplace(endpoint.topic, asked_of(endpoint)).first->second;
       topic.endpoints.push_back(observed(endpoint, discovery));
+      topic.endpoints.back().is_heard = hears(first, endpoint);
     }
     std::vector<ObservedTopic> sorted;
     for (auto& [name, topic] : by_name) sorted.push_back(std::move(topic));
@@ -154,15 +162,15 @@ class Observer final : public DdsObserver {
 
   std::vector<std::string> watch_again() override {
     const auto endpoints = named_endpoints();
-    const auto hears = [&](const auto& watch) {
+    const auto hears_any = [&](const auto& watch) {
       const auto first = first_writer(endpoints, watch->topic());
       const auto is_heard = [&](const Endpoint& endpoint) {
         return endpoint.topic == watch->topic() && place(endpoint) == place(*first) &&
-               watch->hears(endpoint);
+               hears(watch->read_like(), endpoint);
       };
       return !first || std::ranges::any_of(endpoints, is_heard);
     };
-    const auto first_deaf = std::stable_partition(watches_.begin(), watches_.end(), hears);
+    const auto first_deaf = std::stable_partition(watches_.begin(), watches_.end(), hears_any);
     const std::vector<std::unique_ptr<Watch>> deaf{std::move_iterator{first_deaf},
                                                    std::move_iterator{watches_.end()}};
     watches_.erase(first_deaf, watches_.end());
@@ -186,12 +194,18 @@ class Observer final : public DdsObserver {
     return endpoints;
   }
 
+  /// What the reader for a writer asks for: what that one offers and no more, so that it always
+  /// matches.
+  Endpoint asked_of(Endpoint writer) const {
+    writer.reliable = writer.reliable && asks_again_;
+    return writer;
+  }
+
   Expected<void> watch(const std::string& asked, Endpoint writer, OnSample on_sample) {
     const auto dds_topic = participant_->topic(writer.topic, writer.type);
     if (!dds_topic) return tl::unexpected{dds_topic.error()};
-    // Asks for what the writer offers and no more, so that it always matches. What it keeps for
-    // late joiners comes all at once.
-    writer.reliable = writer.reliable && asks_again_;
+    writer = asked_of(std::move(writer));
+    // What it keeps for late joiners comes all at once.
     const QosSettings settings{.reader_reliable = writer.reliable,
                                .transient_local = writer.transient_local,
                                .depth = writer.transient_local ? 100 : 10};

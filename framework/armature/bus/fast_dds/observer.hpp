@@ -27,6 +27,8 @@ struct ObservedEndpoint {
   std::string deployment = {};  // the one of ours that it says it is of; empty: another program's
   std::uint64_t layout = 0;     // of its type, as MessageType::layout has it; 0: it does not say
   std::array<std::uint8_t, 16> guid = {};  // no two have the same
+  /// Of a writer: whether the reader of its topic, where that is watched, hears it, or would.
+  bool is_heard = true;
 };
 
 /// A topic as discovery shows it.

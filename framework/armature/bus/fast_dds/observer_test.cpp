@@ -4,8 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
 
 #include "armature/bus/fast_dds/fast_dds_test.hpp"
 #include "armature/messages/cdr_to_json.hpp"
@@ -111,6 +115,46 @@ TEST_F(FastDds, AWatchedTopicThatComesBackWithLessQosOrAnotherTypeIsWatchedAgain
   EXPECT_TRUE(offered(*other, images));
   observer->unwatch("/test/to_peer");
   EXPECT_TRUE(eventually([&] { return other->matched_readers() == 0; }));
+}
+
+TEST_F(FastDds, TheObserverSaysWhichWritersItsReaderDoesNotHear) {
+  const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
+  const auto transport = make_transport();
+  const std::string name = "rt/test/to_peer";
+  /// By the type of a writer, and whether it keeps samples for those who come later.
+  using Heard = std::map<std::pair<std::string, bool>, bool>;
+  const auto heard_of = [&](std::size_t writers) {
+    Heard heard;
+    EXPECT_TRUE(eventually([&] {
+      heard.clear();
+      for (const ObservedTopic& topic : observer->topics()) {
+        for (const ObservedEndpoint& one : topic.endpoints) {
+          if (one.writes) heard[{one.type, one.transient_local}] = one.is_heard;
+        }
+      }
+      return heard.size() == writers;
+    }));
+    return heard;
+  };
+  const auto watch = [&] {
+    return observer->watch("/test/to_peer", seconds(30), [](const ObservedSample&) {}).has_value();
+  };
+  const MessageType& image = message_type<msg::Image>();
+  const std::string type{type_.dds_name}, other{image.dds_name};
+  {
+    const auto state = transport->advertise({name, &type_, QosProfile::state}).value();
+    ASSERT_TRUE(watch());
+    const auto latched = transport->advertise({name, &type_, QosProfile::latched}).value();
+    EXPECT_EQ(heard_of(2), (Heard{{{type, false}, true}, {{type, true}, true}}));
+  }
+  observer->unwatch("/test/to_peer");
+  heard_of(0);
+  const auto latched = transport->advertise({name, &type_, QosProfile::latched}).value();
+  ASSERT_TRUE(watch());
+  const auto state = transport->advertise({name, &type_, QosProfile::state}).value();
+  const auto image_writer = transport->advertise({name, &image, QosProfile::state}).value();
+  EXPECT_EQ(heard_of(3),
+            (Heard{{{type, false}, false}, {{type, true}, true}, {{other, false}, false}}));
 }
 
 TEST_F(FastDds, AWatchedTopicIsReadLikeTheDeploymentThatHasItAsSoonAsThatWritesIt) {

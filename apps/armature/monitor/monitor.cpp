@@ -17,7 +17,7 @@ void serve_browsers(TopicSource& topics, MonitorAddress address, Playback* playb
   FoxgloveBridge bridge{
       topics,
       {.server = monitor_server(address),
-       .on_refusal = [](const std::string& why) { fmt::print(stderr, "armature: {}\n", why); },
+       .on_note = [](const std::string& note) { fmt::print(stderr, "armature: {}\n", note); },
        .playback = playback}};
   tell(monitor_links(address, bridge.port()));
   bridge.run(ends);

@@ -118,8 +118,7 @@ void DdsTopics::tell_unheard(const ObservedTopic& topic) const {
 }
 
 void DdsTopics::tell_once(const std::string& what, const std::string& text) const {
-  constexpr std::size_t kMostTold = 100;
-  if (told_.size() < kMostTold && told_.insert(what).second) on_conflict_(text);
+  if (told_.is_new(what)) on_conflict_(text);
 }
 
 TopicSource::Schema DdsTopics::schema_of(const Topic& topic) const {

@@ -10,6 +10,7 @@
 #include "armature/bus/fast_dds/observer.hpp"
 #include "armature/bus/network.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
+#include "armature/values/told_once.hpp"
 #include "armature/web/topic_source.hpp"
 
 namespace armature ARMATURE_EXPORT {
@@ -41,11 +42,11 @@ class DdsTopics final : public TopicSource {
   bool is_believed(const std::string& topic, const ObservedSample& sample) const;
   std::set<std::string> take_not_believed() const;
   void tell_unheard(const ObservedTopic& topic) const;
-  /// At most a hundred, each once: `what` tells them apart.
+  /// `what` tells them apart.
   void tell_once(const std::string& what, const std::string& text) const;
 
   std::function<void(const std::string&)> on_conflict_;
-  mutable std::set<std::string> told_;
+  mutable ToldOnce told_;
   mutable std::mutex mutex_;
   mutable std::set<std::string> deployments_;   // that are there
   mutable std::set<std::string> not_believed_;  // what is to be told of whom

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -115,7 +116,7 @@ void FoxgloveBridge::run(const std::function<bool()>& ends) {
 }
 
 std::uint64_t FoxgloveBridge::dropped() const {
-  std::uint64_t dropped = dropped_;
+  std::uint64_t dropped = dropped_ + lost_;
   for (const auto& [client, subscriber] : clients_) dropped += server_.dropped(client);
   return dropped;
 }
@@ -329,7 +330,7 @@ void FoxgloveBridge::forward() {
     arrived_bytes_ = 0;
     lost = std::exchange(arrived_dropped_, 0);
   }
-  dropped_ += lost;
+  lost_ += lost;
   for (auto& [client, subscriber] : clients_) {
     if (!subscriber.channels.empty()) subscriber.lost += lost;
   }
@@ -396,20 +397,26 @@ void FoxgloveBridge::tell_time() {
 }
 
 void FoxgloveBridge::tell_refusal(const WebServer::Refusal& refusal) {
-  constexpr std::size_t kMostReasons = 100;
-  const bool is_new = refusals_.size() < kMostReasons && refusals_.insert(refusal.about).second;
-  if (is_new && options_.on_refusal) options_.on_refusal(refusal.why);
+  if (refusals_.is_new(refusal.about)) options_.on_note(refusal.why);
+}
+
+void FoxgloveBridge::tell_loss(const std::string& what, std::uint64_t count) {
+  const std::string number = std::to_string(count);
+  const bool is_due = count > 0 && losses_.is_new(fmt::format("{} {}", what, number.size()));
+  if (is_due) options_.on_note(fmt::format("{} messages were {}", number, what));
 }
 
 void FoxgloveBridge::tell_dropped() {
+  tell_loss("lost on the way to the bridge", lost_);
   for (auto& [client, subscriber] : clients_) {
+    const std::uint64_t dropped = server_.dropped(client);
+    tell_loss(fmt::format("dropped: they came faster than client {} reads", client), dropped);
     // Who has not read what it was told last is told all of it later.
     if (server_.is_behind(client)) continue;
     const auto warn = [&, to = client](std::uint64_t count, std::string_view how) {
       if (count > 0)
         server_.send(to, status(kWarning, fmt::format("{} messages were {}", count, how)));
     };
-    const std::uint64_t dropped = server_.dropped(client);
     warn(dropped - std::exchange(subscriber.told_dropped, dropped),
          "dropped: they came faster than this client reads");
     warn(std::exchange(subscriber.lost, 0), "lost on the way to the bridge");

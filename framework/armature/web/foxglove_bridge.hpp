@@ -8,11 +8,11 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "armature/values/told_once.hpp"
 #include "armature/web/playback.hpp"
 #include "armature/web/topic_source.hpp"
 #include "armature/web/web_server.hpp"
@@ -29,9 +29,11 @@ class FoxgloveBridge {
  public:
   struct Options {
     WebServer::Options server;
-    /// Why somebody was not let in, once for each reason, as some clients try for ever, and once
-    /// for each address that asks for another protocol; a hundred times at most. By `run`.
-    std::function<void(const std::string& why)> on_refusal;
+    /// By `run`. Why somebody was not let in, once for each reason, as some clients try for ever,
+    /// and once for each address that asks for another protocol; a hundred times at most. How many
+    /// messages did not come here or were dropped for a client: the first ones, and again when
+    /// their number has a digit more; a hundred times at most.
+    std::function<void(const std::string& note)> on_note = [](const std::string&) {};
     Playback* playback = nullptr;  // of the topics, which is then served; outlives the bridge
   };
 
@@ -94,6 +96,7 @@ class FoxgloveBridge {
   void tell_jump(Client asker = 0, std::string_view request_id = {});
   void tell_time();
   void tell_dropped();
+  void tell_loss(const std::string& what, std::uint64_t count);
   void tell_refusal(const WebServer::Refusal& refusal);
 
   TopicSource& topics_;
@@ -101,10 +104,11 @@ class FoxgloveBridge {
   std::map<std::uint32_t, Channel> channels_;  // that are there; no number comes twice
   std::map<std::string, std::uint32_t> by_topic_;
   std::map<Client, Subscriber> clients_;
-  std::set<std::string> refusals_;
+  ToldOnce refusals_, losses_;
   std::uint32_t last_channel_ = 0;
   Playback::Status told_status_ = Playback::Status::paused;  // of the playback, to everybody
   std::uint64_t dropped_ = 0;                                // of those who have left
+  std::uint64_t lost_ = 0;                                   // on the way to the bridge
 
   static constexpr std::size_t kMostArrived = 64U << 20;  // [byte]
   std::mutex mutex_;

@@ -152,10 +152,28 @@ class FoxgloveBridgeTest : public testing::Test {
     return json::object();
   }
   json subscription(int id) const { return {{"id", id}, {"channelId", channel_}}; }
+  /// What the operator was told, once it is `count` lines.
+  std::vector<std::string> notes(std::size_t count) {
+    for (int i = 0; i < 1000; ++i) {
+      {
+        const std::scoped_lock lock{mutex_};
+        if (notes_.size() >= count) return notes_;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds{10});
+    }
+    return {};
+  }
 
   OneTopic topic_;
   std::atomic<bool> ends_{false};
-  FoxgloveBridge bridge_{topic_, {.server = {.protocols = {"foxglove.websocket.v1"}}}};
+  std::mutex mutex_;
+  std::vector<std::string> notes_;
+  FoxgloveBridge bridge_{topic_,
+                         {.server = {.protocols = {"foxglove.websocket.v1"}},
+                          .on_note = [this](const std::string& note) {
+                            const std::scoped_lock lock{mutex_};
+                            notes_.push_back(note);
+                          }}};
   std::thread thread_;
   WebSocket socket_{bridge_.port(), "Sec-WebSocket-Protocol: foxglove.websocket.v1\r\n"};
   int channel_ = 0;
@@ -304,6 +322,30 @@ TEST_F(FoxgloveBridgeTest, TellsAClientHowManyMessagesDidNotArrive) {
         << "it reads no topic";
     break;
   }
+}
+
+TEST_F(FoxgloveBridgeTest, TellsTheOperatorOfLostMessagesAtFirstAndWhenTheirNumberHasADigitMore) {
+  socket_.send_text(json{{"op", "subscribe"}, {"subscriptions", {subscription(1)}}}.dump());
+  EXPECT_EQ(answer_to(R"({"op": "end"})"), "'end' is not done here: a monitor only shows");
+  for (const std::uint64_t lost : {3, 1, 20}) {
+    ASSERT_TRUE(topic_.write("bright", lost));
+    EXPECT_EQ(told().value("op", ""), "status") << "it has been told before the next are lost";
+  }
+  EXPECT_EQ(notes(2), (std::vector<std::string>{"3 messages were lost on the way to the bridge",
+                                                "24 messages were lost on the way to the bridge"}));
+}
+
+TEST_F(FoxgloveBridgeTest, TellsTheOperatorOfAClientThatReadsTooSlowly) {
+  socket_.send_text(json{{"op", "subscribe"}, {"subscriptions", {subscription(1)}}}.dump());
+  EXPECT_EQ(answer_to(R"({"op": "end"})"), "'end' is not done here: a monitor only shows");
+  for (int i = 0; i < 10 && notes(0).empty(); ++i) {
+    for (int mb = 0; mb < 10; ++mb) ASSERT_TRUE(topic_.write(std::string(1'000'000, 'x')));
+    topic_.wait_for_looks();
+  }
+  const std::vector<std::string> told = notes(1);
+  ASSERT_FALSE(told.empty());
+  EXPECT_TRUE(told[0].ends_with(" messages were dropped: they came faster than client 1 reads"))
+      << told[0];
 }
 
 TEST(FoxgloveBridgePlaybackTest, SendsNothingFromBeforeAJumpBehindIt) {

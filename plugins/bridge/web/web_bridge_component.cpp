@@ -76,9 +76,9 @@ class WebBridgeComponent : public Component {
     WebServer::Options server = monitor_server(address_);
     server.origin_option = "origins:";
     try {
-      bridge_.emplace(
-          *topics_, FoxgloveBridge::Options{.server = std::move(server),
-                                            .on_refusal = [this](const auto& why) { tell(why); }});
+      bridge_.emplace(*topics_,
+                      FoxgloveBridge::Options{.server = std::move(server),
+                                              .on_note = [this](const auto& note) { tell(note); }});
     } catch (const std::runtime_error& error) {
       setup.params().refuse({"port", "address"}, error.what());
     }

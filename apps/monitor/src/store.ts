@@ -11,7 +11,7 @@ export interface Entry {
 
 const kOverhead = 160;  // [byte] of an entry, beside its message
 const kUnpacked = 96;   // messages of a topic that stay unpacked
-const kAhead = 5;       // [s] what is stamped later is not kept, but for the last of it: it may hold for ever
+export const kAhead = 5;       // [s] what is stamped later is not kept, but for the last of it: it may hold for ever
 
 function isSame(a: Uint8Array, b: Uint8Array): boolean {
   return a.byteLength === b.byteLength && a.every((byte, i) => byte === b[i]);

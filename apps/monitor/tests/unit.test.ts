@@ -373,6 +373,21 @@ test('a curve of a fast topic evaluates each message once, and one of a recordin
   assert.equal(whole.times.length, 40000);
   assert.ok(Number.isFinite(whole.at(5)));
 });
+test('a curve goes on after stamps have gone back, and past a message that is stamped ahead', () => {
+  const hub = new Hub(), curve = new Curve('{/arm}.x', (topic) => topic);
+  hub.log('/arm').decode = () => ({x: 1});
+  const goOn = (now: number, seconds: number, ahead: number) => {
+    write(hub.store, '/arm', now, seconds, 10, ahead);
+    curve.update(hub);
+    return Math.abs(curve.times.at(-1)! - hub.store.newest);
+  };
+  assert.ok(goOn(0, 40, 0) < 0.05);
+  assert.ok(goOn(40, 7, -30) < 0.05, 'it has stepped back by less than the window');
+  assert.ok(curve.times.every((t, i) => i === 0 || t >= curve.times[i - 1]!), 'in order');
+  hub.store.add('/arm', hub.store.newest + 3600, new Uint8Array([1]), 47);
+  curve.update(hub);
+  assert.ok(goOn(47, 2, -30) < 0.05, 'one message is stamped ahead');
+});
 test('of many warnings each is there to be told once', () => {
   const hub = new Hub(), told: string[] = [];
   for (let i = 0; i < 250; ++i) {

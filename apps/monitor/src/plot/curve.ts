@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The values of one expression over time, as far back as its topics are remembered.
 import type {Hub} from '../hub';
+import {kAhead} from '../store';
 import {parseExpression, type Expression} from './expression';
 
 const kMaxPoints = 20000;  // of what runs; a recording is bounded by what is read of it
@@ -41,13 +42,12 @@ export class Curve {
   /// Evaluates what has come since, at every message of the first topic.
   update(hub: Hub) {
     const clock = hub.log(this.clock);
-    if (clock.length === 0) {
-      if (this.times.length > 0) this.clear();
-      return;
-    }
-    if (this.times.length > 0 && clock.first!.t < this.seenFrom - 0.5) this.clear();
+    const end = clock.indexAt(hub.store.newest + kAhead) + 1;  // what is stamped later is not believed
+    // Earlier ones have come, or what was evaluated is forgotten: stamps have gone back.
+    const isAnother = end === 0 || clock.first!.t < this.seenFrom - 0.5 || clock.entry(end - 1)!.t < this.seenTo;
+    if (this.times.length > 0 && isAnother) this.clear();
     const others = this.topics.slice(1).map((topic) => hub.log(topic));
-    for (let i = clock.indexAt(this.seenTo) + 1; i < clock.length; ++i) {
+    for (let i = clock.indexAt(this.seenTo) + 1; i < end; ++i) {
       const {t} = clock.entry(i)!;
       // What does not come yet may come a little later: the first values wait for it.
       if (this.times.length === 0 && others.some((log) => log.length === 0)) break;

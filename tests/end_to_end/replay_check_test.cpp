@@ -2,22 +2,16 @@
 // 1. What a deployment records of itself comes back bit for bit, on whichever clock, in however
 //    many processes and threads it ran. 2. A component that does something else than it did is
 //    named, with the place of the first difference. 3. What cannot be compared is told.
-#include <gmock/gmock.h>
-
 #include <csignal>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
-#include <nlohmann/json.hpp>
-#include <set>
 
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_writer.hpp"
-#include "armature/values/file_content.hpp"
-#include "armature/values/temporary_folder.hpp"
-#include "command.hpp"
-#include "tests/dds_domain.hpp"
+#include "replay_test.hpp"
 
 namespace armature::test {
 namespace {
@@ -26,103 +20,66 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 using ::testing::HasSubstr;
 
-constexpr std::chrono::seconds kEnough{120};
-
-class Replay : public testing::Test {
- protected:
-  /// Runs the lamp for a while and records it.
-  CommandResult record(std::vector<std::string> more, double time_limit_s = 4,
-                       const std::string& deployment = "configs/dental_lamp.yaml") const {
-    more.insert(more.begin(),
-                {armature(), "run", source_file(deployment), "--set", "record.file=" + file(),
-                 "--set", "run.time_limit_s=" + std::to_string(time_limit_s), "--domain",
-                 std::to_string(unique_dds_domain())});
-    return run_command(more, {}, kEnough);
-  }
-  /// The same for a moment: for what needs no more than some samples of everything.
-  CommandResult record_shortly(const std::vector<std::string>& more = {}) const {
-    constexpr double kShortly_s = 1.5;
-    return record(more, kShortly_s);
-  }
-  /// Another deployment, on the simulated clock: it has no pictures, and is done at once.
-  CommandResult record_needle() const { return record({}, 2, "configs/sr1_biopsy.yaml"); }
-  std::string file(const std::string& name = "run.mcap") const { return folder_ / name; }
-  /// What an attachment of a recording says.
-  static std::string attached(const std::string& file, const std::string& name) {
-    McapReader reader{file};
-    while (reader.next()) continue;
-    for (const McapAttachment& attachment : reader.attachments()) {
-      if (attachment.name == name) return attachment.data;
-    }
-    return {};
-  }
-  /// As a queue leaves it that dropped the last `count` activations, or all; when all, the count of
-  /// them that stands at its end is left out, too.
-  static void copy_without_last_activations(const std::string& from, std::uint32_t count,
-                                            const std::string& to) {
-    const auto is_activation = [](const McapMessage& message) {
-      return message.channel->topic.ends_with("/activations");
-    };
-    std::uint32_t last = 0;
-    {
-      McapReader reader{from};
-      while (const auto message = reader.next()) {
-        if (is_activation(*message)) last = message->sequence;
-      }
-    }
+/// As a queue leaves it that dropped the last `count` activations, or all; when all, the count of
+/// them that stands at its end is left out, too.
+void copy_without_last_activations(const std::string& from, std::uint32_t count,
+                                   const std::string& to) {
+  const auto is_activation = [](const McapMessage& message) {
+    return message.channel->topic.ends_with("/activations");
+  };
+  std::uint32_t last = 0;
+  {
     McapReader reader{from};
-    McapWriter writer{to, {}};
-    std::map<std::uint16_t, std::uint16_t> channels;
-    std::size_t attachments = 0, metadata = 0;
-    const auto copy_surroundings = [&] {
-      while (attachments < reader.attachments().size()) {
-        writer.attach(reader.attachments()[attachments++]);
-      }
-      while (metadata < reader.metadata().size()) {
-        McapMetadata one = reader.metadata()[metadata++];
-        if (count >= last) one.values.erase("activations");
-        writer.add(one);
-      }
-    };
     while (const auto message = reader.next()) {
-      copy_surroundings();
-      if (is_activation(*message) && (count >= last || message->sequence > last - count)) continue;
-      if (!channels.contains(message->channel->id)) {
-        McapChannel channel = *message->channel;
-        channel.schema_id = writer.add(McapSchema{reader.schemas().at(channel.schema_id)});
-        channels[message->channel->id] = writer.add(channel);
-      }
-      writer.write(channels[message->channel->id], message->sequence, message->log_time,
-                   message->publish_time, message->data);
+      if (is_activation(*message)) last = message->sequence;
     }
+  }
+  McapReader reader{from};
+  McapWriter writer{to, {}};
+  std::map<std::uint16_t, std::uint16_t> channels;
+  std::size_t attachments = 0, metadata = 0;
+  const auto copy_surroundings = [&] {
+    while (attachments < reader.attachments().size()) {
+      writer.attach(reader.attachments()[attachments++]);
+    }
+    while (metadata < reader.metadata().size()) {
+      McapMetadata one = reader.metadata()[metadata++];
+      if (count >= last) one.values.erase("activations");
+      writer.add(one);
+    }
+  };
+  while (const auto message = reader.next()) {
     copy_surroundings();
-    writer.close();
-  }
-  static json check(std::vector<std::string> arguments, int exit_code) {
-    arguments.insert(arguments.begin(), {armature(), "replay", "--check", "--json"});
-    const CommandResult result = run_command(arguments, {}, kEnough);
-    EXPECT_EQ(result.exit_code, exit_code) << result.out << result.err;
-    return json::parse(result.out);
-  }
-  /// Of the components that did something else.
-  static std::map<std::string, json> differences_of(const json& checked) {
-    std::map<std::string, json> differences;
-    for (const json& component : checked["components"]) {
-      if (component.contains("difference")) {
-        differences[component["component"]] = component["difference"];
-      }
+    if (is_activation(*message) && (count >= last || message->sequence > last - count)) continue;
+    if (!channels.contains(message->channel->id)) {
+      McapChannel channel = *message->channel;
+      channel.schema_id = writer.add(McapSchema{reader.schemas().at(channel.schema_id)});
+      channels[message->channel->id] = writer.add(channel);
     }
-    return differences;
+    writer.write(channels[message->channel->id], message->sequence, message->log_time,
+                 message->publish_time, message->data);
   }
-  static json component_of(const json& checked, const std::string& name) {
-    for (const json& component : checked["components"]) {
-      if (component["component"] == name) return component;
-    }
-    return {};
-  }
+  copy_surroundings();
+  writer.close();
+}
 
-  const TemporaryFolder folder_;
-};
+/// Of the components that did something else.
+std::map<std::string, json> differences_of(const json& checked) {
+  std::map<std::string, json> differences;
+  for (const json& component : checked["components"]) {
+    if (component.contains("difference")) {
+      differences[component["component"]] = component["difference"];
+    }
+  }
+  return differences;
+}
+
+json component_of(const json& checked, const std::string& name) {
+  for (const json& component : checked["components"]) {
+    if (component["component"] == name) return component;
+  }
+  return {};
+}
 
 TEST_F(Replay, ARunOnTheSystemClockComesBackBitForBit) {
   const CommandResult run = record({});
@@ -245,83 +202,6 @@ TEST_F(Replay, AProcessThatWasKilledIsInTheJoinedRecordingAsFarAsItCame) {
               HasSubstr("the part of process 'vision' was cut off: it ends"));
   EXPECT_GT(component_of(checked, "face")["outputs"], 0);
   EXPECT_GT(component_of(checked, "motion")["outputs"], 1'000);
-}
-
-TEST_F(Replay, TheFiguresOfARunAreInItsRecordingAsTheRunToldThem) {
-  const CommandResult run = record({"--set", "clock=simulated", "--json"});
-  const json told = json::parse(run.out);
-  const json figures = json::parse(attached(file(), "figures.json"));
-  EXPECT_EQ(figures["status"], told["status"]);
-  EXPECT_EQ(figures["reasons"], told["reasons"]) << "its time was over before its end";
-  EXPECT_GT(figures["figures"].size(), 5U);
-  for (const json& figure : figures["figures"]) {
-    EXPECT_EQ(figure["value"], told[std::string{figure["key"]}]) << figure;
-    if (figure["key"] != "mouth_position_error_mm") continue;
-    EXPECT_EQ(figure["title"], "mouth position error [mm]");
-    EXPECT_EQ(figure["goal"], 2.5);
-  }
-  EXPECT_GT(figures["timing"]["components"]["motion"]["step"]["count"], 3'900);
-  EXPECT_FALSE(told.contains("timing")) << "nobody asked for it";
-  EXPECT_EQ(run_command({armature(), "info", "--verify", file()}).exit_code, 0);
-  EXPECT_TRUE(check({file()}, 0)["identical"]);
-}
-
-TEST_F(Replay, ARunThatRecordsItselfHasWhatItsPageShows) {
-  record_shortly();
-  const json info = json::parse(run_command({armature(), "info", "--json", file()}).out);
-  std::set<std::string> topics;
-  for (const json& topic : info["topics"]) topics.insert(topic["topic"]);
-  for (const char* topic : {"/tf", "/tf_static", "/joint_states", "/robot_description", "/rosout",
-                            "/dental_lamp/tool_pose", "/dental_lamp/markers"}) {
-    EXPECT_TRUE(topics.contains(topic)) << topic;
-  }
-  EXPECT_FALSE(topics.contains("/dental_lamp/left/image_raw/compressed"))
-      << "a picture is recorded once";
-  const CommandResult report =
-      run_command({armature(), "report", file(), "-o", file("report.html")}, {}, kEnough);
-  EXPECT_EQ(report.exit_code, 0);
-  EXPECT_EQ(report.err, "");
-}
-
-TEST_F(Replay, TheReportOfARunHasItsPage) {
-  const fs::path out = folder_ / "out 50%d";
-  const auto run = [&](std::vector<std::string> more) {
-    more.insert(more.begin(), {armature(), "run", source_file("configs/dental_lamp.yaml"), "--json",
-                               "--report", out, "--set", "run.time_limit_s=1.5", "--domain",
-                               std::to_string(unique_dds_domain())});
-    return run_command(more, {}, kEnough);
-  };
-  for (int times = 0; times < 2; ++times) {  // the second takes the place of the first
-    const CommandResult result = run({});
-    EXPECT_EQ(json::parse(result.out)["status"], "goals_missed") << "nothing else on the output";
-    EXPECT_NE(content_of(out / "report.html").find("data-figures=\"{&quot;status&quot;"),
-              std::string::npos);
-    const CommandResult replay = run_command({armature(), "replay", "--check", out / "run.mcap"});
-    EXPECT_EQ(replay.exit_code, 1);
-    EXPECT_THAT(replay.err, HasSubstr("only what a page of the run shows"));
-  }
-  EXPECT_LT(fs::file_size(out / "run.mcap"), 8'000'000U);
-  fs::remove_all(out);
-  run({"--set", "record.file=" + file()});
-  EXPECT_TRUE(fs::exists(out / "report.html"));
-  EXPECT_FALSE(fs::exists(out / "run.mcap")) << "it has a recording of its own";
-  const CommandResult around =
-      run({"--set", "record={file: \"" + file("%H.mcap") + "\", around_faults_s: 1}"});
-  EXPECT_THAT(around.err, HasSubstr("so its report has no page"));
-  EXPECT_FALSE(fs::exists(out / "report.html")) << "that of the run before";
-}
-
-TEST_F(Replay, AResultThatCannotBePrintedCostsNeitherReportNorRecording) {
-  const std::string run = armature() + " run " + source_file("configs/sr1_biopsy.yaml") +
-                          " --json --timing --report '" + folder_.path().string() +
-                          "' --set record.file=" + file() + " --domain " +
-                          std::to_string(unique_dds_domain());
-  const CommandResult result = run_command({"/bin/sh", "-c", run + " > /dev/full"}, {}, kEnough);
-  EXPECT_EQ(result.exit_code, 1);
-  EXPECT_THAT(result.err, HasSubstr("the result was not printed: No space left on device"));
-  EXPECT_EQ(json::parse(content_of(folder_ / "report.json"))["status"], "ok");
-  EXPECT_TRUE(fs::exists(folder_ / "report.html"));
-  EXPECT_EQ(run_command({armature(), "info", file(), "--verify"}).exit_code, 0);
 }
 
 TEST_F(Replay, AChangedConstantIsFoundAndNamesItsComponentOnly) {
@@ -531,129 +411,6 @@ TEST_F(Replay, WhatWasFoundInAVolumeIsFoundAgainWhereTheVolumeIsAsItWas) {
   }
 }
 
-TEST_F(Replay, WhatHappenedAroundATroubleIsInAFileOfItsOwn) {
-  const fs::path named = file("trouble-%H.mcap");
-  Command run{{armature(), "run", source_file("configs/dental_lamp.yaml"), "--set",
-               "record={file: \"" + named.string() + "\", around_faults_s: 1}", "--inject",
-               "monitor:throw", "--domain", std::to_string(unique_dds_domain())}};
-  ASSERT_TRUE(run.wait_for_err("aligning", kEnough));
-  EXPECT_TRUE(fs::is_empty(folder_.path())) << "nothing has happened yet";
-  run.signal(SIGUSR1);
-  const CommandResult result = run.finish(kEnough);
-  EXPECT_THAT(result.err, HasSubstr("what happened around the trouble is recorded: "));
-  // Around the end of the run, which has a fault, is another one: "trouble-10-2.mcap".
-  std::vector<std::string> files;
-  for (const auto& entry : fs::directory_iterator{folder_.path()}) files.push_back(entry.path());
-  ASSERT_FALSE(files.empty());
-  const std::string written = *std::ranges::min_element(files, {}, &std::string::size);
-  const json info =
-      json::parse(run_command({armature(), "info", written, "--json", "--verify"}).out);
-  EXPECT_TRUE(info["whole"]);
-  EXPECT_GT(info["length_s"], 1.0) << "before and after";
-  EXPECT_LT(info["length_s"], 4.0);
-  std::set<std::string> topics;
-  for (const json& topic : info["topics"]) {
-    if (topic["messages"] > 0) topics.insert(topic["topic"]);
-  }
-  for (const char* latched : {"/robot_description", "/tf_static", "/dental_lamp/description"}) {
-    EXPECT_TRUE(topics.contains(latched)) << latched;
-  }
-  const CommandResult replay = run_command({armature(), "replay", written, "--check"});
-  EXPECT_EQ(replay.exit_code, 1);
-  EXPECT_THAT(replay.err, HasSubstr("begins in the midst of a run"));
-}
-
-TEST_F(Replay, AGoalThatIsMissedIsATroubleAroundWhichIsRecorded) {
-  const CommandResult run =
-      run_command({armature(), "run", source_file("configs/sr1_biopsy.yaml"), "--set",
-                   "record={file: \"" + file("trouble-%H.mcap") + "\", around_faults_s: 1}",
-                   "--set", "goals.target_error_of_bound_999=0.1", "--json", "--domain",
-                   std::to_string(unique_dds_domain())},
-                  {}, kEnough);
-  EXPECT_EQ(json::parse(run.out)["status"], "goals_missed") << run.err;
-  EXPECT_THAT(run.err, HasSubstr("what happened around the trouble is recorded: "));
-  ASSERT_FALSE(fs::is_empty(folder_.path()));
-  const std::string written = fs::directory_iterator { folder_.path() } -> path();
-  EXPECT_EQ(json::parse(attached(written, "figures.json"))["status"], "goals_missed");
-}
-
-TEST_F(Replay, WhatWasRecordedIsPublishedAgainUnderNamesOfItsOwn) {
-  record_shortly();
-  const std::string domain = std::to_string(unique_dds_domain());
-  Command playing{{armature(), "replay", file(), "--loop", "--rate", "2", "--domain", domain}};
-  const CommandResult joints =
-      run_command({armature(), "topic", "echo", "/replay/dental_lamp/arm/measured_js", "-n", "1",
-                   "--timeout", "20", "--domain", domain});
-  EXPECT_EQ(joints.exit_code, 0) << joints.err;
-  EXPECT_THAT(joints.out, HasSubstr("\"position\""));
-  const CommandResult description =
-      run_command({armature(), "topic", "echo", "/replay/dental_lamp/description", "-n", "1",
-                   "--timeout", "20", "--domain", domain});
-  EXPECT_THAT(description.out, HasSubstr("ik/lamp_geometric")) << "also for those who come later";
-  playing.signal(SIGINT);
-  const CommandResult played = playing.finish(kEnough);
-  EXPECT_EQ(played.exit_code, 0) << played.err;
-  EXPECT_THAT(played.out, HasSubstr("topics under /replay"));
-}
-
-TEST_F(Replay, AGapIsToldWithTheTimeForWhichNothingWasRecorded) {
-  record_needle();
-  const CommandResult replay =
-      run_command({armature(), "replay", file(), "--rate", "1e-5", "--timeout", "3", "--domain",
-                   std::to_string(unique_dds_domain())});
-  EXPECT_THAT(replay.err, testing::ContainsRegex("the next message comes in [0-9]+ s: none was "
-                                                 "recorded for 0\\.0[0-9]+ s; a higher --rate"));
-}
-
-TEST_F(Replay, WhatCannotBePublishedIsToldWithTheReason) {
-  record_needle();
-  const std::string domain = std::to_string(unique_dds_domain());
-  const CommandResult behind =
-      run_command({armature(), "replay", file(), "--from", "100", "--loop", "--domain", domain});
-  EXPECT_EQ(behind.exit_code, 3);
-  EXPECT_THAT(behind.err, testing::ContainsRegex("run.mcap' is [0-9.]+ s long: nothing is there "
-                                                 "from 100 s on"));
-  McapWriter{file("empty.mcap"), {}}.close();
-  const CommandResult empty =
-      run_command({armature(), "replay", file("empty.mcap"), "--domain", domain});
-  EXPECT_EQ(empty.exit_code, 1);
-  EXPECT_THAT(empty.err, HasSubstr("empty.mcap' has no messages to be published"));
-}
-
-TEST_F(Replay, OfARecordingOfAnotherProgramAllIsPublishedWhoseTypeIsKnownAndTheRestIsNamed) {
-  {
-    McapWriter writer{file(), {}};
-    const auto channel_of = [&](const char* topic, const char* type) {
-      const auto schema =
-          writer.add(McapSchema{.name = type, .encoding = "ros2msg", .data = "# as there\n"});
-      return writer.add(
-          McapChannel{.schema_id = schema, .topic = topic, .message_encoding = "cdr"});
-    };
-    const auto write = [&](std::uint16_t channel, std::int64_t second, std::size_t bytes) {
-      std::vector<std::byte> cdr(bytes);
-      cdr[1] = std::byte{1};  // little endian
-      writer.write(channel, 1, Time{second * 1'000'000'000}, Time{}, cdr);
-    };
-    constexpr std::size_t kFloat64 = 4 + 8, kNothing = 4;
-    const auto value = channel_of("/value", "std_msgs/msg/Float64");
-    for (int i = 0; i < 3; ++i) write(value, 0, kFloat64);
-    write(value, 0, kNothing);
-    write(channel_of("/value", "std_msgs/msg/String"), 0, kFloat64);
-    write(channel_of("/a\x1b[31m", "foo/msg/Bar"), 0, kFloat64);
-    write(value, 3600, kFloat64);
-    writer.close();
-  }
-  const CommandResult played = run_command({armature(), "replay", file(), "--timeout", "3",
-                                            "--domain", std::to_string(unique_dds_domain())});
-  EXPECT_EQ(played.exit_code, 1) << "some were left out";
-  EXPECT_THAT(played.out, HasSubstr("3 messages of 1 topics under /replay"));
-  EXPECT_THAT(played.err, HasSubstr("'/value' has messages of two types: those of "));
-  EXPECT_THAT(played.err, HasSubstr("1 messages of '/value' are not what their type says"));
-  EXPECT_THAT(played.err, HasSubstr("is of the type 'foo/msg/Bar', which is not known here"));
-  EXPECT_THAT(played.err, testing::Not(HasSubstr("\x1b"))) << "nothing that a terminal obeys";
-  EXPECT_THAT(played.err, HasSubstr("the next message comes in 3600 s"));
-}
-
 TEST_F(Replay, FilesOfDifferentRunsAreRefused) {
   record_needle();
   fs::rename(file(), file("first.mcap"));
@@ -662,14 +419,6 @@ TEST_F(Replay, FilesOfDifferentRunsAreRefused) {
       run_command({armature(), "replay", "--check", file("first.mcap"), file()}, {}, kEnough);
   EXPECT_EQ(replay.exit_code, 3);
   EXPECT_THAT(replay.err, HasSubstr("are of different runs"));
-}
-
-TEST_F(Replay, ANameWithoutAFolderIsInTheFolderWhereTheRunIs) {
-  const std::string run = armature() + " run " + source_file("configs/dental_lamp.yaml") +
-                          " --set record.file=here.mcap --set run.time_limit_s=1 --domain " +
-                          std::to_string(unique_dds_domain());
-  run_command({"/bin/sh", "-c", "cd '" + folder_.path().string() + "' && " + run}, {}, kEnough);
-  EXPECT_TRUE(fs::exists(file("here.mcap")));
 }
 
 TEST_F(Replay, AnotherProcessorIsRefusedUnlessLastBitsMayDiffer) {
@@ -689,32 +438,6 @@ TEST_F(Replay, AnotherProcessorIsRefusedUnlessLastBitsMayDiffer) {
       run_command({armature(), "replay", file(), "--check", "--allow-ulp"}, {}, kEnough);
   EXPECT_THAT(allowed.out, HasSubstr("identical as far as it was compared: "));
   EXPECT_THAT(allowed.err, HasSubstr(file())) << "a byte has been changed";
-}
-
-TEST_F(Replay, ARecordingThatIsThereStopsARunBeforeItBegins) {
-  std::ofstream{file()} << "yesterday's";
-  const CommandResult run = record({});
-  EXPECT_EQ(run.exit_code, 3);
-  EXPECT_THAT(run.err, HasSubstr("is there already: move it, or let the name say the time"));
-  EXPECT_EQ(fs::file_size(file()), 11U);
-}
-
-TEST_F(Replay, ARecordingThatIsThereStopsAProcessThatTheMainOneDoesNotLookAfter) {
-  const std::string part = file("run.vision.mcap");
-  std::ofstream{part} << "yesterday's";
-  const CommandResult run =
-      record({"--process", "vision", "--set", "components.landmarks.process=vision", "--set",
-              "components.face.process=vision"});
-  EXPECT_EQ(run.exit_code, 3);
-  EXPECT_THAT(run.err, HasSubstr("'" + part + "' is there already"));
-  EXPECT_EQ(fs::file_size(part), 11U);
-}
-
-TEST_F(Replay, AWrongTopicIsFoundBeforeTheRun) {
-  const CommandResult run = record({"--set", "record.topics=[/dental_lamp/arm/measured]"});
-  EXPECT_EQ(run.exit_code, 3);
-  EXPECT_THAT(run.err, HasSubstr("which no component writes or reads; did you mean "
-                                 "'/dental_lamp/arm/measured_js'"));
 }
 
 TEST_F(Replay, ARecordingFromOutsideHasNoActivations) {

@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <set>
 
-#include "armature/config/document.hpp"
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
 #include "exit_code.hpp"
+#include "run/named_deployment.hpp"
 
 namespace armature::drill {
 namespace {
@@ -174,20 +174,12 @@ class Splitter {
   DrilledDeployment* drilled_;
 };
 
-DeploymentConfig read(const DeploymentSource& source, const PluginRegistry& plugins) {
-  config::Problems problems;
-  DeploymentConfig deployment = read_deployment(
-      config::load_with_overlays(source.files, source.assignments), plugins, problems);
-  problems.throw_if_any();
-  return deployment;
-}
-
 }  // namespace
 
 std::string_view to_string(Form form) { return form == Form::single ? "single" : "split"; }
 
 DrilledDeployment read_drilled(const DeploymentSource& source, const PluginRegistry& plugins) {
-  const DeploymentConfig deployment = read(source, plugins);
+  const DeploymentConfig deployment = read_named(source, plugins);
   check_simulated(deployment);
   DrilledDeployment drilled{.name = deployment.name,
                             .stop_within_s = deployment.stop_within_s,

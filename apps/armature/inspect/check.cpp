@@ -11,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "armature/config/document.hpp"
-#include "armature/config/source_text.hpp"
 #include "armature/runtime/deployment/deployment.hpp"
 #include "armature/runtime/deployment_file/component_config.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
@@ -22,6 +20,7 @@
 #include "exit_code.hpp"
 #include "inspect/origin_json.hpp"
 #include "inspect/plugins.hpp"
+#include "run/named_deployment.hpp"
 #include "standard_output.hpp"
 
 namespace armature {
@@ -84,12 +83,7 @@ std::size_t count_topics(const DeploymentConfig& deployment) {
 /// The deployment without what must not be tried. Throws the problems of its files.
 DeploymentConfig read_for_check(const DeploymentSource& source, const PluginRegistry& plugins,
                                 Findings& findings) {
-  const config::PipeTimeLimit one_for_all;
-  config::Problems problems;
-  DeploymentConfig config = read_deployment(
-      config::load_with_overlays(source.files, source.assignments, &findings.warnings), plugins,
-      problems);
-  problems.throw_if_any();
+  DeploymentConfig config = read_named(source, plugins, &findings.warnings);
   findings.deployment = config.name;
   findings.components = count_components(config);
   findings.topics = count_topics(config);

@@ -18,8 +18,6 @@
 #include <thread>
 #include <utility>
 
-#include "armature/config/document.hpp"
-#include "armature/config/problems.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/task/procedure.hpp"
@@ -29,6 +27,7 @@
 #include "operator/procedure_view.hpp"
 #include "operator/shown_question.hpp"
 #include "operator/task_link.hpp"
+#include "run/named_deployment.hpp"
 #include "standard_output.hpp"
 #include "terminal_text.hpp"
 #include "without_blanks.hpp"
@@ -258,11 +257,7 @@ int be_operator(const OperatorOptions& options) {
     std::signal(signal, [](int) { g_left = true; });
   }
   PluginRegistry plugins;
-  config::Problems problems;
-  const DeploymentConfig deployment =
-      read_deployment(config::load_with_overlays(options.source.files, options.source.assignments),
-                      plugins, problems);
-  problems.throw_if_any();
+  const DeploymentConfig deployment = read_named(options.source, plugins);
   const TaskTopics topics = find_task(deployment, options.component);
   TaskLink link{plugins, topics, network_of(options, deployment)};
   Dialogue dialogue{options, deployment, link};

@@ -7,10 +7,11 @@
 
 namespace armature {
 
-DeploymentConfig read_named(const DeploymentSource& source, const PluginRegistry& plugins) {
+DeploymentConfig read_named(const DeploymentSource& source, const PluginRegistry& plugins,
+                            std::vector<std::string>* notes) {
   const config::PipeTimeLimit one_for_all;
   config::Problems problems;
-  auto config = read_deployment(config::load_with_overlays(source.files, source.assignments),
+  auto config = read_deployment(config::load_with_overlays(source.files, source.assignments, notes),
                                 plugins, problems);
   problems.throw_if_any();
   return config;

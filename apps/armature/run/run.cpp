@@ -16,8 +16,6 @@
 #include <system_error>
 #include <utility>
 
-#include "armature/config/document.hpp"
-#include "armature/config/source_text.hpp"
 #include "armature/runtime/deployment/deployment.hpp"
 #include "armature/runtime/deployment_file/injected_fault.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
@@ -36,6 +34,7 @@
 #include "run/ending.hpp"
 #include "run/host_agent.hpp"
 #include "run/joint_reports.hpp"
+#include "run/named_deployment.hpp"
 #include "run/other_processes.hpp"
 #include "run/report_list.hpp"
 #include "run/run_recording.hpp"
@@ -273,17 +272,6 @@ void check_name(const DeploymentConfig& config, const char* what, const std::str
                                   config::did_you_mean(name, names)));
 }
 
-/// `notes` gets what the assignments leave out.
-DeploymentConfig read(const DeploymentSource& source, PluginRegistry& plugins,
-                      std::vector<std::string>& notes) {
-  const config::PipeTimeLimit one_for_all;
-  config::Problems problems;
-  DeploymentConfig config = read_deployment(
-      config::load_with_overlays(source.files, source.assignments, &notes), plugins, problems);
-  problems.throw_if_any();
-  return config;
-}
-
 /// The first line of a run. It comes before the components are made, which may take seconds.
 std::string starting_text(const DeploymentConfig& config) {
   const std::size_t count = config.components.size();
@@ -300,7 +288,7 @@ int run(RunOptions options) {
   PluginRegistry plugins;
   if (!is_child) tell_warnings(plugins);
   std::vector<std::string> notes;
-  DeploymentConfig config = read(options.source, plugins, notes);
+  DeploymentConfig config = read_named(options.source, plugins, &notes);
   if (!is_child) {
     for (const std::string& note : notes)
       fmt::print(stderr, "{} {}\n", coloured("warning:", Tone::doubtful, stderr), note);

@@ -3,21 +3,17 @@
 
 #include <utility>
 
-#include "armature/config/document.hpp"
 #include "armature/runtime/deployment/deployment.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/reporting/run_report.hpp"
+#include "run/named_deployment.hpp"
 
 namespace armature {
 
 DeploymentConfig read_for_lockstep(const DeploymentSource& source, const PluginRegistry& plugins) {
-  std::vector<std::string> assignments = source.assignments;
-  assignments.push_back("clock=simulated");
-  config::Problems problems;
-  DeploymentConfig config =
-      read_deployment(config::load_with_overlays(source.files, assignments), plugins, problems);
-  problems.throw_if_any();
-  return config;
+  DeploymentSource in_lockstep = source;
+  in_lockstep.assignments.push_back("clock=simulated");
+  return read_named(in_lockstep, plugins);
 }
 
 std::string lockstep_report(DeploymentConfig config, PluginRegistry& plugins) {

@@ -16,8 +16,6 @@
 #include <vector>
 
 #include "armature/bus/topic_name.hpp"
-#include "armature/config/document.hpp"
-#include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/values/file_content.hpp"
 #include "armature/values/temporary_folder.hpp"
@@ -26,6 +24,7 @@
 #include "bench/watched/watched_report.hpp"
 #include "exit_code.hpp"
 #include "progress.hpp"
+#include "run/named_deployment.hpp"
 #include "standard_output.hpp"
 #include "watch/outsider.hpp"
 
@@ -50,10 +49,7 @@ struct Subject {
 
 Subject subject_of(const DeploymentSource& source) {
   PluginRegistry plugins;
-  config::Problems problems;
-  const DeploymentConfig config = read_deployment(
-      config::load_with_overlays(source.files, source.assignments), plugins, problems);
-  problems.throw_if_any();
+  const DeploymentConfig config = read_named(source, plugins);
   if (config.simulated) {
     throw InvalidChoice("on the simulated clock nobody waits for a watcher: --set clock=system");
   }

@@ -18,7 +18,6 @@
 #include "armature/kinds/ik/lines/answering.hpp"
 #include "armature/robot/kinematics/locked_joints.hpp"
 #include "armature/robot/model/robot_model.hpp"
-#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "exit_code.hpp"
 #include "inspect/plugins.hpp"
@@ -78,25 +77,28 @@ int run_fk(const ArmChoice& arm, const std::string& input) {
                       [&](const std::string& line) { return answer_fk(robot, line); });
 }
 
-int run_ik(const ArmChoice& arm, const SolverChoice& choice, const std::string& input) {
-  LineInput lines{input};
-  const RobotModel robot = load_arm(arm);
-  PluginRegistry plugins;
+PluginPtr<IkSolver> make_solver(const SolverChoice& choice, const RobotModel& model,
+                                PluginRegistry& plugins) {
   tell_warnings(plugins);
   const PluginManifest* plugin = plugins.find(choice.plugin);
   if (!plugin) throw InvalidChoice(plugins.unknown_text(choice.plugin));
   const Params params = params_of(*plugin, choice.params);
   name_crashing_components();
-  const RobotModel solver_model = without_locked_joints(robot);
-  const auto solver = plugins.make<IkSolver>(choice.plugin, solver_model, params);
-  if (!solver) {
-    throw InvalidChoice(
-        fmt::format("{} refuses robot '{}': {}", choice.plugin, robot.name(), solver.error().text));
-  }
+  auto solver = plugins.make<IkSolver>(choice.plugin, model, params);
+  if (solver) return std::move(*solver);
+  throw InvalidChoice(
+      fmt::format("{} refuses robot '{}': {}", choice.plugin, model.name(), solver.error().text));
+}
+
+int run_ik(const ArmChoice& arm, const SolverChoice& choice, const std::string& input) {
+  LineInput lines{input};
+  const RobotModel robot = load_arm(arm), solver_model = without_locked_joints(robot);
+  PluginRegistry plugins;
+  const PluginPtr<IkSolver> solver = make_solver(choice, solver_model, plugins);
   const JointVector home = resting_position(robot);
   const RunningComponent running{choice.plugin, "solve", "plugin"};
   return answer_lines(lines.stream(), [&](const std::string& line) {
-    return answer_ik(robot, **solver, home, line);
+    return answer_ik(robot, *solver, home, line);
   });
 }
 

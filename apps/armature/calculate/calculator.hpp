@@ -4,14 +4,20 @@
 #include <string>
 
 #include "arm_choice.hpp"
+#include "armature/kinds/ik/ik.hpp"
+#include "armature/runtime/plugins/plugin_registry.hpp"
 
 namespace armature {
 
-/// The solver that `armature ik` asks.
+/// The solver that a verb asks.
 struct SolverChoice {
   std::string plugin = "ik/numeric";
   std::string params;  // YAML map
 };
+/// Makes it for `model`, which it uses, and tells the warnings of the plugins. Throws
+/// config::ConfigError, and InvalidChoice when it refuses the model.
+PluginPtr<IkSolver> make_solver(const SolverChoice& choice, const RobotModel& model,
+                                PluginRegistry& plugins);
 
 /// `armature fk` and `armature ik`: JSON lines in, one JSON line out for each, in order. A bad line
 /// is answered with a reason and the next one goes on; memory stays bounded. They use the robot

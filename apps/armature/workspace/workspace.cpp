@@ -13,12 +13,10 @@
 #include "armature/plot/chart.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/kinematics/locked_joints.hpp"
-#include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
-#include "inspect/plugins.hpp"
 #include "standard_output.hpp"
 #include "workspace/workspace_points.hpp"
 
@@ -66,20 +64,10 @@ RemoteCentre centre_of(const RobotModel& robot, const WorkspaceOptions& options)
 Workspace workspace_of(const RobotModel& robot, const RemoteCentre& centre,
                        const WorkspaceOptions& options) {
   PluginRegistry plugins;
-  tell_warnings(plugins);
-  const std::string& id = options.solver.plugin;
-  const PluginManifest* plugin = plugins.find(id);
-  if (!plugin) throw InvalidChoice(plugins.unknown_text(id));
-  const Params params = params_of(*plugin, options.solver.params);
-  name_crashing_components();
   const RobotModel solver_model = without_locked_joints(robot);
-  const auto solver = plugins.make<IkSolver>(id, solver_model, params);
-  if (!solver) {
-    throw InvalidChoice(
-        fmt::format("{} refuses robot '{}': {}", id, robot.name(), solver.error().text));
-  }
-  const RunningComponent running{id, "solve", "plugin"};
-  return workspace_about(centre, 1e-3 * options.min_depth_mm, robot, **solver, options.samples,
+  const PluginPtr<IkSolver> solver = make_solver(options.solver, solver_model, plugins);
+  const RunningComponent running{options.solver.plugin, "solve", "plugin"};
+  return workspace_about(centre, 1e-3 * options.min_depth_mm, robot, *solver, options.samples,
                          options.seed);
 }
 

@@ -2,6 +2,7 @@
 #include "standard_output.hpp"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -17,6 +18,12 @@ std::FILE* g_own = nullptr;
 std::FILE* standard_output() { return g_own ? g_own : stdout; }
 
 int standard_output_descriptor() { return g_descriptor; }
+
+void write_at_once(int file, std::string_view text) {
+  pollfd writable{.fd = file, .events = POLLOUT, .revents = 0};
+  if (poll(&writable, 1, 0) <= 0) return;
+  [[maybe_unused]] const auto written = ::write(file, text.data(), text.size());
+}
 
 void keep_standard_output() {
   std::fflush(stdout);

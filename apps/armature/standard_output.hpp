@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdio>
+#include <string_view>
 #include <utility>
 
 namespace armature {
@@ -12,6 +13,8 @@ namespace armature {
 std::FILE* standard_output();
 /// Its descriptor. Safe in a signal handler.
 int standard_output_descriptor();
+/// Writes as much as a reader takes at once. Safe in a signal handler.
+void write_at_once(int file, std::string_view text);
 
 /// Prints a part of the result.
 template <class... Arguments>

@@ -2,7 +2,6 @@
 #include "run/end_signals.hpp"
 
 #include <fcntl.h>
-#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -25,13 +24,6 @@ constexpr std::array kOfOperator{SIGINT, SIGTERM, SIGQUIT};
 std::atomic<int> g_signal{0}, g_count{0}, g_of_operator{0};
 std::atomic<bool> g_json{false}, g_reports{false}, g_result_told{false};
 std::string g_report_file;  // set before any handler
-
-/// Never waits for a reader.
-void write_out(int file, std::string_view text) {
-  pollfd writable{.fd = file, .events = POLLOUT, .revents = 0};
-  if (poll(&writable, 1, 0) <= 0) return;
-  [[maybe_unused]] const auto written = ::write(file, text.data(), text.size());
-}
 
 bool is_of_operator(int signal) {
   return std::ranges::find(kOfOperator, signal) != kOfOperator.end();
@@ -63,14 +55,14 @@ Text text_of(int signal) {
 
 /// In a signal handler, which may open and write, and little else.
 [[noreturn]] void leave(std::string_view json, std::string_view line) {
-  if (g_json && !g_result_told) write_out(standard_output_descriptor(), json);
+  if (g_json && !g_result_told) write_at_once(standard_output_descriptor(), json);
   if (g_reports && !g_result_told) {
     const int report =
         ::open(g_report_file.c_str(),
                O_WRONLY | O_CREAT | O_TRUNC | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC, 0600);
-    if (report >= 0) write_out(report, json);
+    if (report >= 0) write_at_once(report, json);
   }
-  write_out(STDERR_FILENO, line);
+  write_at_once(STDERR_FILENO, line);
   _exit(kFailed);
 }
 

@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "run/watched_end.hpp"
 
-#include <poll.h>
 #include <unistd.h>
-
-#include <string_view>
 
 #include "armature/values/sanitizer.hpp"
 #include "exit_code.hpp"
@@ -12,17 +9,6 @@
 #include "standard_output.hpp"
 
 namespace armature {
-namespace {
-
-/// Never waits for a reader.
-void write_out(std::string_view text) {
-  pollfd writable{.fd = standard_output_descriptor(), .events = POLLOUT, .revents = 0};
-  if (poll(&writable, 1, 0) <= 0) return;
-  [[maybe_unused]] const auto written =
-      ::write(standard_output_descriptor(), text.data(), text.size());
-}
-
-}  // namespace
 
 WatchedEnd::WatchedEnd(const RunOptions& options, Console& console, ChildWatch* child)
     : options_{&options}, console_{&console}, child_{child} {
@@ -47,7 +33,7 @@ void WatchedEnd::leave(const std::string& fault) const {
   if (child_) child_->tell_fault(fault);
   if (!child_ || child_->alone()) console_->tell(fault);
   const std::string told = ending("fault", fault);
-  if (options_->json && !result_told_) write_out(told);
+  if (options_->json && !result_told_) write_at_once(standard_output_descriptor(), told);
   console_->flush();
   if (options_->report && !child_ && !result_told_) {
     alarm(kFileWithin_s);  // the report's disk may be what hangs

@@ -23,6 +23,7 @@
 #include "armature/task/procedure.hpp"
 #include "armature/values/json_text.hpp"
 #include "armature/values/time.hpp"
+#include "armature/values/without_blanks.hpp"
 #include "exit_code.hpp"
 #include "operator/procedure_view.hpp"
 #include "operator/shown_question.hpp"
@@ -30,7 +31,6 @@
 #include "run/named_deployment.hpp"
 #include "standard_output.hpp"
 #include "terminal_text.hpp"
-#include "without_blanks.hpp"
 
 namespace armature {
 namespace {

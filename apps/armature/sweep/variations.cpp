@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "without_blanks.hpp"
+#include "armature/values/without_blanks.hpp"
 
 namespace armature::sweep {
 namespace {

@@ -6,6 +6,8 @@
 #include <cctype>
 #include <cstddef>
 
+#include "armature/values/without_blanks.hpp"
+
 namespace armature {
 namespace {
 
@@ -20,16 +22,9 @@ constexpr std::string_view kHolding = "holding";
 
 constexpr std::size_t kToldOfAWord = 40;  // letters
 
-std::string_view trimmed(std::string_view word) {
-  const auto is_blank = [](unsigned char c) { return std::isspace(c) != 0; };
-  while (!word.empty() && is_blank(word.front())) word.remove_prefix(1);
-  while (!word.empty() && is_blank(word.back())) word.remove_suffix(1);
-  return word;
-}
-
 /// Drivers write such words small or large, "emergency-stop" or "Emergency Stop".
 bool is_same_word(std::string_view word, std::string_view said) {
-  return std::ranges::equal(word, trimmed(said), [](unsigned char a, unsigned char b) {
+  return std::ranges::equal(word, without_blanks(said), [](unsigned char a, unsigned char b) {
     return a == (b == '-' || b == ' ' ? '_' : std::tolower(b));
   });
 }
@@ -87,7 +82,7 @@ ReasonText StopInputs::stop_of(std::string_view state) {
     unknown_word_ = ReasonText::format(
         "the arm says '{}', which is none of ENABLED, HOLDING, DISABLED, PAUSED, FAULT, "
         "PROTECTIVE_STOP, EMERGENCY_STOP and OVERRIDE",
-        trimmed(state).substr(0, kToldOfAWord));
+        without_blanks(state).substr(0, kToldOfAWord));
     return was_enabled_ ? unknown_word_ : ReasonText{};
   }
   return was_enabled_ ? ReasonText::format("the arm says {}", lost) : ReasonText{};

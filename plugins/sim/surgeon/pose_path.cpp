@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "armature/messages/geometry.hpp"
+#include "armature/values/without_blanks.hpp"
 
 namespace armature::sim::surgeon {
 namespace {
@@ -25,17 +26,11 @@ using Eigen::Vector3d;
 constexpr std::array kColumns{"t", "x", "y", "z", "qx", "qy", "qz", "qw"};
 using Numbers = std::array<double, kColumns.size()>;
 
-std::string_view trimmed(std::string_view text) {
-  const auto from = text.find_first_not_of(" \t\r");
-  if (from == std::string_view::npos) return {};
-  return text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
-}
-
 std::vector<std::string_view> fields_of(std::string_view line) {
   std::vector<std::string_view> fields;
   while (true) {
     const auto comma = line.find(',');
-    fields.push_back(trimmed(line.substr(0, comma)));
+    fields.push_back(without_blanks(line.substr(0, comma)));
     if (comma == std::string_view::npos) return fields;
     line.remove_prefix(comma + 1);
   }
@@ -127,7 +122,7 @@ Expected<PosePath> read_pose_path(std::string_view text, std::string_view name) 
   int number = 0;
   for (std::string line; std::getline(lines, line);) {
     ++number;
-    const std::string_view content = trimmed(line);
+    const std::string_view content = without_blanks(line);
     if (content.empty() || content.front() == '#') continue;
     const auto fields = fields_of(content);
     if (rows.empty() && names_columns(fields)) continue;

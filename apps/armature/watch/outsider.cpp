@@ -91,8 +91,7 @@ std::string Outsider::topics_there(const std::string& topic) {
     if (there.writers > 0) names.push_back(terminal_text(ros_topic_name(there.name)));
   }
   if (names.empty()) return "; " + no_topics();
-  const std::string hint = config::did_you_mean(topic, names);
-  if (hint.find("did you mean") != std::string::npos) return hint;
+  if (std::string hint = config::spelling_hint(topic, names); !hint.empty()) return hint;
   std::string list;
   for (const std::string& name : names) list += "\n  " + name;
   return "; topics that are there:" + list;

@@ -3,12 +3,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <optional>
 #include <vector>
 
 #include "armature/config/problems.hpp"
+#include "armature/config/unit_suffix.hpp"
 
 namespace armature::config {
 namespace {
@@ -22,19 +22,6 @@ std::string lower(std::string_view text) {
   std::ranges::transform(result, result.begin(),
                          [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return result;
-}
-
-/// The name without its unit: `distance_mm` -> `distance`.
-std::string_view without_unit(std::string_view name) {
-  constexpr std::array<std::string_view, 17> kUnits{
-      "_rad_s2", "_deg_s2", "_m_s2", "_rad_s", "_deg_s", "_m_s", "_mm_s", "_deg", "_rad",
-      "_mm",     "_cm",     "_px",   "_hz",    "_ms",    "_us",  "_m",    "_s"};
-  for (const std::string_view unit : kUnits) {
-    if (name.size() > unit.size() && name.ends_with(unit)) {
-      return name.substr(0, name.size() - unit.size());
-    }
-  }
-  return name;
 }
 
 /// Insertions, deletions, replacements and swaps of neighbours (optimal string alignment).
@@ -87,10 +74,13 @@ std::vector<std::string> nearest(std::string_view wrong, std::span<const std::st
 
 }  // namespace
 
-std::string did_you_mean(std::string_view wrong, std::span<const std::string> known) {
-  if (known.empty()) return "";
+std::string spelling_hint(std::string_view wrong, std::span<const std::string> known) {
   const std::vector<std::string> near = nearest(wrong, known);
-  if (!near.empty()) return fmt::format("; did you mean '{}'?", fmt::join(near, "' or '"));
+  return near.empty() ? "" : fmt::format("; did you mean '{}'?", fmt::join(near, "' or '"));
+}
+
+std::string did_you_mean(std::string_view wrong, std::span<const std::string> known) {
+  if (std::string hint = spelling_hint(wrong, known); !hint.empty() || known.empty()) return hint;
   const auto shown = known.first(std::min(known.size(), kMaxKnown));
   return fmt::format("; known: {}{}", fmt::join(shown, ", "),
                      shown.size() < known.size() ? ", ..." : "");

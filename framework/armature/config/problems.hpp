@@ -49,8 +49,12 @@ class ConfigError : public std::runtime_error {
 std::string in_quotes(std::string_view text);
 
 /// "; did you mean 'a' or 'b'?" for the known names nearest to `wrong` (edit distance without case;
-/// the same name with another unit suffix or under another family is nearest), or, when none is
-/// near, "; known: a, b, c" (at most eight), or "" when nothing is known.
+/// the same name with another unit suffix or under another family is nearest), or "" when none is
+/// near.
+std::string spelling_hint(std::string_view wrong, std::span<const std::string> known);
+
+/// The spelling hint, or, when there is none, "; known: a, b, c" (at most eight), or "" when
+/// nothing is known.
 std::string did_you_mean(std::string_view wrong, std::span<const std::string> known);
 
 }  // namespace config

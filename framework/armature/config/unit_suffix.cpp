@@ -61,7 +61,7 @@ const UnitSuffix* unit_of(std::string_view key) {
 }
 
 std::string_view without_unit(std::string_view key) {
-  if (const UnitSuffix* unit = unit_of(key)) key.remove_suffix(unit->written.size() + 1);
+  if (const auto words = unit_words(key); !words.empty()) key.remove_suffix(words.size() + 1);
   return key;
 }
 

@@ -17,7 +17,7 @@ struct UnitSuffix {
 /// Null for a key that states no unit, or one that is not known.
 const UnitSuffix* unit_of(std::string_view key);
 
-/// `key` without its unit: "tilt".
+/// `key` without its unit, known or not: "tilt".
 std::string_view without_unit(std::string_view key);
 
 /// The factor from a key's unit to SI: `_deg` -> pi/180, `_mm` -> 1e-3; 1 for a key without unit.

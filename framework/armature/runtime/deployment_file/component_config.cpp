@@ -64,18 +64,17 @@ void ComponentReader::report_missing_plugin(const Node::Entry& entry) const {
   }
   const std::vector<std::string> word{"plugin"};
   for (const auto& [key, key_origin, value] : entry.value.entries()) {
-    const std::string hint = config::did_you_mean(key, word);
-    if (hint.find("did you mean") == std::string::npos) continue;
+    const std::string hint = config::spelling_hint(key, word);
+    if (hint.empty()) continue;
     problems_.add(key_origin,
                   fmt::format("unknown key '{}' in component '{}'{}", key, entry.key, hint));
     return;
   }
   std::vector<std::string> ids;
   for (const auto& plugin : plugins_.plugins()) ids.push_back(plugin.id);
-  const std::string hint = config::did_you_mean(entry.key, ids);
   problems_.add(entry.key_origin,
                 fmt::format("component '{}' names no plugin: add 'plugin: family/name'{}",
-                            entry.key, hint.find("did you mean") == std::string::npos ? "" : hint));
+                            entry.key, config::spelling_hint(entry.key, ids)));
 }
 
 std::optional<std::string> name_defect(std::string_view name) {

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -110,10 +109,7 @@ bool is_misspelt(const std::string& asked, const std::string& there) {
   int wrong = 0;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     if (wanted[i] == written[i]) continue;
-    const std::array known{written[i]};
-    const bool near =
-        config::did_you_mean(wanted[i], known).find("did you mean") != std::string::npos;
-    wrong += near ? 1 : 2;
+    wrong += config::spelling_hint(wanted[i], {&written[i], 1}).empty() ? 2 : 1;
   }
   return wrong == 1;
 }

@@ -4,12 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 
 #include "armature/config/document.hpp"
 #include "armature/config/reader.hpp"
+#include "armature/config/unit_suffix.hpp"
 
 namespace armature {
 namespace {
@@ -34,9 +34,8 @@ std::optional<int> parse_reads(const std::string& text, bool& valid) {
 
 /// A duration by its unit; "max_velocity_m_s" is none.
 bool is_in_seconds(const ParamSpec& param) {
-  constexpr std::array<std::string_view, 4> kRates{"_m_s", "_mm_s", "_rad_s", "_deg_s"};
-  return param.type == ParamSpec::Type::number && param.name.ends_with("_s") &&
-         std::ranges::none_of(kRates, [&](auto rate) { return param.name.ends_with(rate); });
+  const config::UnitSuffix* unit = config::unit_of(param.name);
+  return param.type == ParamSpec::Type::number && unit && unit->written == "s";
 }
 
 /// `after`: seconds, or the name of a parameter that tells them.

@@ -19,17 +19,13 @@
 namespace armature {
 namespace {
 
-/// The ids that are near to a wrong one, or those of the same family, or the first ones.
-std::string meant_by(std::string_view wrong, std::span<const PluginManifest> plugins) {
-  const std::string_view family = wrong.substr(0, wrong.find('/') + 1);  // "ik/"
-  std::vector<std::string> ids, of_family;
+/// The ids of a family, "ik/", or of all: "".
+std::vector<std::string> ids_of(std::string_view family, std::span<const PluginManifest> plugins) {
+  std::vector<std::string> ids;
   for (const auto& plugin : plugins) {
-    ids.push_back(plugin.id);
-    if (!family.empty() && plugin.id.starts_with(family)) of_family.push_back(plugin.id);
+    if (plugin.id.starts_with(family)) ids.push_back(plugin.id);
   }
-  const std::string meant = config::did_you_mean(wrong, ids);
-  const bool is_near = meant.find("did you mean") != std::string::npos;
-  return is_near || of_family.empty() ? meant : config::did_you_mean(wrong, of_family);
+  return ids;
 }
 
 }  // namespace
@@ -184,10 +180,14 @@ std::string PluginRegistry::unknown_text(std::string_view id) const {
     const bool there = std::filesystem::is_directory(folder, none);
     folders.push_back(folder.string() + (there ? "" : " (no such folder)"));
   }
-  const std::string meant = meant_by(id, plugins_);
+  const auto all = ids_of("", plugins_),
+             of_family = ids_of(id.substr(0, id.find('/') + 1), plugins_);
+  const std::string near = config::spelling_hint(id, all);
+  const std::string meant =
+      near.empty() ? config::did_you_mean(id, of_family.empty() ? all : of_family) : near;
   std::string text =
       fmt::format("unknown plugin '{}'{}; searched {}", id, meant, fmt::join(folders, ", "));
-  if (search_path_.size() == 1 && meant.find("did you mean") == std::string::npos) {
+  if (search_path_.size() == 1 && near.empty()) {
     text += "; ARMATURE_PLUGIN_PATH adds folders of your own";
   }
   for (const auto& [file, reason] : unusable_) {

@@ -26,18 +26,10 @@ void add_bench_plan(CLI::App* bench, Action& action) {
   plan->add_option("--plugins", options->plugins, "planners, 'trajectory/quintic' (all)")
       ->delimiter(',');
   plan->add_option("--params", options->params, "YAML: '{trajectory/cubic_spline: {...}}'");
-  plan->add_option("--motions", options->motions, "of each shape")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
-  plan->add_option("--keys", options->keys, "of an orientation curve")
-      ->capture_default_str()
-      ->check(CLI::Range(2, 1000));
-  plan->add_option("--seed", options->seed, "of the random numbers")
-      ->capture_default_str()
-      ->check(wrong_seed);
-  plan->add_option("--repetitions", options->repetitions, "of every plan")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+  add_ranged(plan, "--motions", options->motions, "of each shape", 1, 1000000);
+  add_ranged(plan, "--keys", options->keys, "of an orientation curve", 2, 1000);
+  add_seed(plan, options->seed, "of the random numbers");
+  add_ranged(plan, "--repetitions", options->repetitions, "of every plan", 1, 1000);
   plan->add_flag("--json", options->json, "as JSON");
   plan->callback([options, &action] { action = [options] { return bench_plan(*options); }; });
 }
@@ -52,23 +44,11 @@ void add_bench_loop(CLI::App* bench, Action& action) {
                  "in further rounds the loop is recorded, by itself and by another process, and a "
                  "page and four others read it");
   loop->add_option("--page", options->page)->group("");  // what the bench starts
-  loop->add_option("--rounds", options->rounds, "of each comparison")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
-  loop->add_option("--seconds", options->seconds, "of a round: at least 1000 periods")
-      ->capture_default_str()
-      ->check(wrong_number)
-      ->check(CLI::Range(0.1, 3600.0));
-  loop->add_option("--period", options->period_s, "of the loops [s]")
-      ->capture_default_str()
-      ->check(wrong_number)
-      ->check(CLI::Range(1e-4, 0.1));
-  loop->add_option("--priority", options->priority, "of the loops, SCHED_FIFO; 0: normal")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 99));
-  loop->add_option("--domain", options->domain, "DDS domain")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 232));
+  add_ranged(loop, "--rounds", options->rounds, "of each comparison", 1, 1000);
+  add_ranged(loop, "--seconds", options->seconds, "of a round: at least 1000 periods", 0.1, 3600.0);
+  add_ranged(loop, "--period", options->period_s, "of the loops [s]", 1e-4, 0.1);
+  add_ranged(loop, "--priority", options->priority, "of the loops, SCHED_FIFO; 0: normal", 0, 99);
+  add_ranged(loop, "--domain", options->domain, "DDS domain", 0, 232);
   loop->add_flag("--json", options->json, "as JSON");
   loop->callback([options, &action] {
     if (std::string wrong = wrong_round(*options); !wrong.empty()) {
@@ -82,15 +62,9 @@ void add_bench_bus(CLI::App* bench, Action& action) {
   auto options = std::make_shared<BusBenchOptions>();
   CLI::App* bus = bench->add_subcommand(
       "bus", "What a topic costs beside a wake and beside Fast DDS alone: armature bench bus");
-  bus->add_option("--rounds", options->rounds, "of everything in turn")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 10000));
-  bus->add_option("--picture-bytes", options->picture_bytes, "size of a picture")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1'900'000));
-  bus->add_option("--domain", options->domain, "DDS domain")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 232));
+  add_ranged(bus, "--rounds", options->rounds, "of everything in turn", 1, 10000);
+  add_ranged(bus, "--picture-bytes", options->picture_bytes, "size of a picture", 1, 1'900'000);
+  add_ranged(bus, "--domain", options->domain, "DDS domain", 0, 232);
   bus->add_flag("--answers", options->answers)->group("");  // what the bench starts
   bus->add_flag("--json", options->json, "as JSON");
   bus->callback([options, &action] { action = [options] { return bench_bus(*options); }; });
@@ -103,19 +77,11 @@ void add_bench_watched(CLI::App* bench, Action& action) {
       "What it costs a deployment to be recorded and read: armature bench watched "
       "dental_lamp --set components.scene.params.rate_hz=30");
   add_source(*watched, options->source);
-  watched->add_option("--readers", options->readers, "other processes that read what is measured")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 32));
-  watched->add_option("--rounds", options->rounds, "of a run each")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
-  watched->add_option("--seconds", options->seconds, "of a run")
-      ->capture_default_str()
-      ->check(wrong_number)
-      ->check(CLI::Range(1.0, 3600.0));
-  watched->add_option("--domain", options->domain, "DDS domain")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 232));
+  add_ranged(watched, "--readers", options->readers, "other processes that read what is measured",
+             0, 32);
+  add_ranged(watched, "--rounds", options->rounds, "of a run each", 1, 1000);
+  add_ranged(watched, "--seconds", options->seconds, "of a run", 1.0, 3600.0);
+  add_ranged(watched, "--domain", options->domain, "DDS domain", 0, 232);
   watched->add_flag("--json", options->json, "as JSON");
   watched->callback([options, &action] { action = [options] { return bench_watched(*options); }; });
 }
@@ -128,12 +94,9 @@ void add_bench_perception(CLI::App* bench, Action& action) {
       "armature bench perception dental_lamp");
   add_source(*perception, options->source);
   perception->get_option("files")->required(false);
-  perception->add_option("--pairs", options->pairs, "in all, at least one of each group")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
-  perception->add_option("--seed", options->seed, "of the cases")
-      ->capture_default_str()
-      ->check(wrong_seed);
+  add_ranged(perception, "--pairs", options->pairs, "in all, at least one of each group", 1,
+             1000000);
+  add_seed(perception, options->seed, "of the cases");
   perception->add_option("--group", options->group,
                          "only groups with this in their name, 'glasses'; their pairs are those of "
                          "a run of all");
@@ -174,16 +137,10 @@ void add_bench_verbs(CLI::App& app, Action& action) {
   ik->add_option("--plugins", options->plugins, "solvers, 'ik/lamp_geometric,ik/numeric' (all)")
       ->delimiter(',');
   ik->add_option("--params", options->params, "YAML: '{ik/numeric: {max_restarts: 3}}'");
-  ik->add_option("--poses", options->poses, "goals")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 10000000));
-  ik->add_option("--seed", options->seed, "of the random numbers")
-      ->capture_default_str()
-      ->check(wrong_seed);
+  add_ranged(ik, "--poses", options->poses, "goals", 1, 10000000);
+  add_seed(ik, options->seed, "of the random numbers");
   ik->add_flag("--near", options->near_only, "only seeds within 5 degrees of a solution");
-  ik->add_option("--repetitions", options->repetitions, "of every solve")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
+  add_ranged(ik, "--repetitions", options->repetitions, "of every solve", 1, 1000);
   ik->add_option("--tolerance", options->tolerance, "of a residual, m and rad")
       ->capture_default_str()
       ->check(not_positive);

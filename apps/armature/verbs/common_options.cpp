@@ -44,9 +44,7 @@ void add_monitor_address(CLI::App& verb, MonitorAddress& server) {
                   "IPv4 address of this machine to listen at; beyond loopback a token is asked for")
       ->capture_default_str()
       ->check(CLI::ValidIPV4);
-  verb.add_option("--port", server.port, "0: any that is free")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 65535));
+  add_ranged(&verb, "--port", server.port, "0: any that is free", 0, 65535);
   verb.add_option("--origin", server.origins,
                   "let pages from there connect, too: http://localhost:8080")
       ->allow_extra_args(false);
@@ -59,6 +57,10 @@ void add_watch(CLI::App& verb, WatchOptions& options) {
   verb.add_option("--timeout", options.timeout_s, "give up after this many seconds")
       ->check(not_positive);
   verb.add_flag("--json", options.json, "as JSON");
+}
+
+void add_seed(CLI::App* verb, std::uint64_t& seed, const std::string& what) {
+  verb->add_option("--seed", seed, what)->capture_default_str()->check(wrong_seed);
 }
 
 void add_arm(CLI::App* verb, ArmChoice& arm) {

@@ -68,21 +68,14 @@ void add_drill(CLI::App& app, Action& action) {
   CLI::App* verb = app.add_subcommand(
       "drill", "Pull the plugs of a deployment whose arms are simulated, while they move");
   add_source(*verb, options->source);
-  verb->add_option("--moments", options->moments, "at which each fault is fired")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000));
-  verb->add_option("--within", options->within_s,
-                   "the moments lie in so many seconds after an arm was first seen to move")
-      ->capture_default_str()
-      ->check(wrong_number)
-      ->check(CLI::Range(0.0, 100.0));
+  add_ranged(verb, "--moments", options->moments, "at which each fault is fired", 1, 1000);
+  add_ranged(verb, "--within", options->within_s,
+             "the moments lie in so many seconds after an arm was first seen to move", 0.0, 100.0);
   verb->add_option("--seed", options->seed, "of the moments (another one every time)")
       ->check(wrong_seed);
   verb->add_option("--faults", options->faults, "only these, 'interrupt,motion_killed' (all)")
       ->delimiter(',');
-  verb->add_option("--jobs", options->jobs, "runs at the same time")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 16));
+  add_ranged(verb, "--jobs", options->jobs, "runs at the same time", 1, 16);
   verb->add_option("--domain", options->domain,
                    "DDS domain of all runs, which are then one at a time (any that is free)")
       ->check(CLI::Range(0, 232));
@@ -149,9 +142,7 @@ void add_stop(CLI::App& app, Action& action) {
   auto options = std::make_shared<StopOptions>();
   CLI::App* verb = app.add_subcommand(
       "stop", "Stop every arm of a DDS domain: they stay stopped until they are rearmed");
-  verb->add_option("--domain", options->network.domain, "DDS domain")
-      ->capture_default_str()
-      ->check(CLI::Range(0, 232));
+  add_ranged(verb, "--domain", options->network.domain, "DDS domain", 0, 232);
   add_network(*verb, options->network);
   verb->add_option("--timeout", options->timeout_s,
                    "seconds for a deployment to be found, and to take it")

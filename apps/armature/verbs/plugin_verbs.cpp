@@ -5,7 +5,6 @@
 
 #include "inspect/plugins.hpp"
 #include "plugin_new/family.hpp"
-#include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
 #include "verify/verify.hpp"
 
@@ -19,18 +18,11 @@ void add_verify(CLI::App& plugin, Action& action) {
   add_arm(verify, options->arm);
   verify->add_option("--params", options->params, "the plugin's parameters, a YAML map");
   verify->add_option("--rig", options->rig, "rig file, for a component that uses one");
-  verify->add_option("--poses", options->poses, "of every set; of a component its activations")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 1000000));
-  verify->add_option("--seed", options->seed, "of the random numbers")
-      ->capture_default_str()
-      ->check(wrong_seed);
-  verify
-      ->add_option("--timeout", options->timeout_s,
-                   "seconds that a law may take; a solver that hangs breaks it")
-      ->capture_default_str()
-      ->check(wrong_number)
-      ->check(CLI::Range(0.1, 1e6));
+  add_ranged(verify, "--poses", options->poses, "of every set; of a component its activations", 1,
+             1000000);
+  add_seed(verify, options->seed, "of the random numbers");
+  add_ranged(verify, "--timeout", options->timeout_s,
+             "seconds that a law may take; a solver that hangs breaks it", 0.1, 1e6);
   verify->add_flag("--json", options->json, "as JSON");
   verify->callback([options, &action] { action = [options] { return verify_plugin(*options); }; });
 }

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <CLI/CLI.hpp>
+#include <cstdint>
 #include <functional>
+#include <string>
+#include <type_traits>
 
 #include "arm_choice.hpp"
 #include "armature/bus/network.hpp"
 #include "armature/web/monitor_server.hpp"
 #include "run/run.hpp"
+#include "verbs/option_checks.hpp"
 #include "watch/outsider.hpp"
-
-namespace CLI {
-class App;
-}
 
 namespace armature {
 
@@ -40,5 +41,14 @@ void add_network(CLI::App& verb, NetworkOptions& network);
 void add_monitor_address(CLI::App& verb, MonitorAddress& server);
 /// The domain too, --timeout and --json.
 void add_watch(CLI::App& verb, WatchOptions& options);
+void add_seed(CLI::App* verb, std::uint64_t& seed, const std::string& what);
+/// A number that has a default, from `least` to `most`.
+template <class Number, class Limit>
+void add_ranged(CLI::App* verb, const std::string& name, Number& number, const std::string& what,
+                Limit least, Limit most) {
+  CLI::Option* option = verb->add_option(name, number, what)->capture_default_str();
+  if constexpr (std::is_floating_point_v<Limit>) option->check(wrong_number);
+  option->check(CLI::Range(least, most));
+}
 
 }  // namespace armature

@@ -9,25 +9,6 @@
 namespace armature {
 namespace {
 
-std::string_view ros_kind(FieldKind kind) {
-  switch (kind) {
-    case FieldKind::boolean: return "bool";
-    case FieldKind::octet: return "uint8";
-    case FieldKind::int8: return "int8";
-    case FieldKind::int16: return "int16";
-    case FieldKind::uint16: return "uint16";
-    case FieldKind::int32: return "int32";
-    case FieldKind::uint32: return "uint32";
-    case FieldKind::int64: return "int64";
-    case FieldKind::uint64: return "uint64";
-    case FieldKind::float32: return "float32";
-    case FieldKind::float64: return "float64";
-    case FieldKind::text: return "string";
-    case FieldKind::structure: break;
-  }
-  return "";
-}
-
 /// The types in `type`, each once, in the order in which they are met.
 void add_nested(const TypeDescription& type, std::vector<const TypeDescription*>& all) {
   for (const FieldDescription& field : type.fields) {
@@ -52,7 +33,7 @@ std::string ros2_name(const TypeDescription& type) {
 
 std::string ros_field(const FieldDescription& field, const std::string& package) {
   std::string type =
-      field.structure ? field.structure->ros_name : std::string{ros_kind(field.kind)};
+      field.structure ? field.structure->ros_name : std::string{names_of(field.kind).ros};
   if (!package.empty() && type.starts_with(package + "/")) type = type.substr(package.size() + 1);
   const std::string bound = std::to_string(field.bound);
   if (field.shape == FieldDescription::Shape::array) type += "[" + bound + "]";

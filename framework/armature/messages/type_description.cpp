@@ -1,34 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/messages/type_description.hpp"
 
+#include <algorithm>
+#include <array>
+
 namespace armature {
 namespace {
 
-std::string_view kind_name(FieldKind kind) {
-  switch (kind) {
-    case FieldKind::boolean: return "boolean";
-    case FieldKind::octet: return "octet";
-    case FieldKind::int8: return "int8";
-    case FieldKind::int16: return "int16";
-    case FieldKind::uint16: return "uint16";
-    case FieldKind::int32: return "int32";
-    case FieldKind::uint32: return "uint32";
-    case FieldKind::int64: return "int64";
-    case FieldKind::uint64: return "uint64";
-    case FieldKind::float32: return "float32";
-    case FieldKind::float64: return "float64";
-    case FieldKind::text: return "string";
-    case FieldKind::structure: return "struct";
-  }
-  return "";
-}
+constexpr std::array<KindNames, 13> kKinds{{
+    {FieldKind::boolean, "boolean", "bool", "bool", 1},
+    {FieldKind::octet, "octet", "uint8", "std::uint8_t", 1},
+    {FieldKind::int8, "int8", "int8", "std::int8_t", 1},
+    {FieldKind::int16, "int16", "int16", "std::int16_t", 2},
+    {FieldKind::uint16, "uint16", "uint16", "std::uint16_t", 2},
+    {FieldKind::int32, "int32", "int32", "std::int32_t", 4},
+    {FieldKind::uint32, "uint32", "uint32", "std::uint32_t", 4},
+    {FieldKind::int64, "int64", "int64", "std::int64_t", 8},
+    {FieldKind::uint64, "uint64", "uint64", "std::uint64_t", 8},
+    {FieldKind::float32, "float32", "float32", "float", 4},
+    {FieldKind::float64, "float64", "float64", "double", 8},
+    {FieldKind::text, "string", "string", "std::string", 4},
+    {FieldKind::structure, "struct", "", "", 1},
+}};
+static_assert(std::ranges::is_sorted(kKinds, {}, &KindNames::kind));
 
 std::string flattened(const TypeDescription& type) {
   std::string text;
   for (const FieldDescription& field : type.fields) {
     text += field.name + ":";
     text += field.kind == FieldKind::structure ? "{" + flattened(*field.structure) + "}"
-                                               : std::string{kind_name(field.kind)};
+                                               : std::string{names_of(field.kind).idl};
     if (field.shape == FieldDescription::Shape::array) text += "[" + std::to_string(field.bound);
     if (field.shape == FieldDescription::Shape::sequence) text += "<" + std::to_string(field.bound);
     text += ";";
@@ -38,23 +39,10 @@ std::string flattened(const TypeDescription& type) {
 
 }  // namespace
 
+const KindNames& names_of(FieldKind kind) { return kKinds.at(static_cast<std::size_t>(kind)); }
+
 std::size_t smallest_size(const FieldDescription& field) {
-  switch (field.kind) {
-    case FieldKind::boolean:
-    case FieldKind::octet:
-    case FieldKind::int8: return 1;
-    case FieldKind::int16:
-    case FieldKind::uint16: return 2;
-    case FieldKind::int32:
-    case FieldKind::uint32:
-    case FieldKind::float32:
-    case FieldKind::text: return 4;
-    case FieldKind::int64:
-    case FieldKind::uint64:
-    case FieldKind::float64: return 8;
-    case FieldKind::structure: return field.structure->smallest_size;
-  }
-  return 1;
+  return field.structure ? field.structure->smallest_size : names_of(field.kind).smallest_size;
 }
 
 const TypeDescription* TypeDescriptions::find(std::string_view name) const {

@@ -30,6 +30,15 @@ enum class FieldKind {
   structure
 };
 
+/// What a kind of field is called; the names of `structure` are its type's own.
+struct KindNames {
+  FieldKind kind;
+  std::string_view idl, ros, cpp;
+  std::size_t smallest_size;  // [byte] of its CDR
+};
+
+const KindNames& names_of(FieldKind kind);
+
 /// A field of a message type as its IDL states it.
 struct FieldDescription {
   enum class Shape { single, array, sequence };

@@ -6,28 +6,9 @@
 namespace armature {
 namespace {
 
-std::string in_cpp(FieldKind kind) {
-  switch (kind) {
-    case FieldKind::boolean: return "bool";
-    case FieldKind::octet: return "std::uint8_t";
-    case FieldKind::int8: return "std::int8_t";
-    case FieldKind::int16: return "std::int16_t";
-    case FieldKind::uint16: return "std::uint16_t";
-    case FieldKind::int32: return "std::int32_t";
-    case FieldKind::uint32: return "std::uint32_t";
-    case FieldKind::int64: return "std::int64_t";
-    case FieldKind::uint64: return "std::uint64_t";
-    case FieldKind::float32: return "float";
-    case FieldKind::float64: return "double";
-    case FieldKind::text: return "std::string";
-    case FieldKind::structure: break;
-  }
-  return "";
-}
-
 std::string type_of(const FieldDescription& field) {
   const std::string element =
-      field.kind == FieldKind::structure ? "::" + field.structure->dds_name : in_cpp(field.kind);
+      field.structure ? "::" + field.structure->dds_name : std::string{names_of(field.kind).cpp};
   switch (field.shape) {
     case FieldDescription::Shape::array:
       return fmt::format("std::array<{}, {}>", element, field.bound);
@@ -127,8 +108,8 @@ std::string constant_of(const ConstantDescription& constant) {
   std::string value = constant.value;
   if (constant.kind == FieldKind::boolean) value = value == "TRUE" ? "true" : "false";
   return fmt::format("inline constexpr {} {}{{{}}};\n",
-                     is_text ? "std::string_view" : in_cpp(constant.kind), last_part(constant.name),
-                     value);
+                     is_text ? "std::string_view" : names_of(constant.kind).cpp,
+                     last_part(constant.name), value);
 }
 
 /// Definitions in the order of the file, with as few changes of the namespace as there are.

@@ -104,8 +104,8 @@ TEST(Sr1Registration, UnorderedMarkersFindTheirNames) {
                     1e-3 * figures["tolerance_mm"].number());
   ASSERT_TRUE(match) << match.error().text;
   const Eigen::VectorXd expected = figures["expected_assignment_ref_to_measured"].numbers();
-  for (std::size_t i = 0; i < match->size(); ++i) {
-    EXPECT_EQ(static_cast<double>((*match)[i]), expected[static_cast<Eigen::Index>(i)]) << i;
+  for (std::size_t i = 0; i < match->measured.size(); ++i) {
+    EXPECT_EQ(static_cast<double>(match->measured[i]), expected[static_cast<Eigen::Index>(i)]) << i;
   }
 }
 

@@ -71,7 +71,7 @@ TEST(MarkedHeads, ATargetIsOffByAsMuchAsPredicted) {
       const auto match = match_markers(marked.markers, points, 0.003);
       ASSERT_TRUE(match) << "seed " << seed << ": " << match.error().text;
       MarkerPairs markers{marked.markers, {}};
-      for (const std::size_t i : *match) markers.robot.push_back(points[i]);
+      for (const std::size_t i : match->measured) markers.robot.push_back(points[i]);
       const auto found = registrar->find(markers);
       ASSERT_TRUE(found) << "seed " << seed << ": " << found.error().text;
       const double off =

@@ -40,15 +40,15 @@ std::optional<std::string> unchecked_handedness(const MarkerPairs& markers,
       1e3 * all.direct_m, 1e3 * all.mirrored_m, 1e3 * marker_error_m, 1e3 * all.explained_m);
 }
 
-std::optional<std::string> exchangeable_handedness(const MirroredMatch& match,
+std::optional<std::string> exchangeable_handedness(const MarkerMatch& match,
                                                    double marker_error_m) {
-  const double explained_m = largest_explained_fit(match.markers, marker_error_m);
-  if (match.rms_m > explained_m) return std::nullopt;
+  const double explained_m = largest_explained_fit(match.measured.size(), marker_error_m);
+  if (match.mirrored_rms_m > explained_m) return std::nullopt;
   return fmt::format(
       "the markers do not tell whether the images are mirrored: exchanged, they fit their mirror "
       "image to {:.2g} mm, and an error of {:.2g} mm a marker explains {:.2g} mm. Put a marker "
       "where none is on the other side, or vouch for the images (handedness_vouched: true)",
-      1e3 * match.rms_m, 1e3 * marker_error_m, 1e3 * explained_m);
+      1e3 * match.mirrored_rms_m, 1e3 * marker_error_m, 1e3 * explained_m);
 }
 
 }  // namespace armature

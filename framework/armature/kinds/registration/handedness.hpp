@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 
+#include "armature/kinds/registration/marker_matching.hpp"
 #include "armature/kinds/registration/registration.hpp"
 
 namespace armature ARMATURE_EXPORT {
@@ -17,16 +17,8 @@ namespace armature ARMATURE_EXPORT {
 std::optional<std::string> unchecked_handedness(const MarkerPairs& markers,
                                                 const Registration& found, double marker_error_m);
 
-/// The mirror image of all markers, and how well some choice of measured points fits it
-/// (`mirrored_match_rms`).
-struct MirroredMatch {
-  std::size_t markers = 0;
-  double rms_m = 0;
-};
-
 /// The same of markers that were measured in any order: those that lie alike on both sides of a
 /// plane fit their mirror image exchanged, however much of a body they span.
-std::optional<std::string> exchangeable_handedness(const MirroredMatch& match,
-                                                   double marker_error_m);
+std::optional<std::string> exchangeable_handedness(const MarkerMatch& match, double marker_error_m);
 
 }  // namespace armature

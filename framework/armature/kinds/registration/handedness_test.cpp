@@ -84,8 +84,7 @@ TEST_F(Handedness, IsNotToldByMarkersInAnyOrderThatLieAlikeOnBothSidesOfAPlane) 
     for (const Eigen::Vector3d& marker : image) {
       robot.push_back({1 + side * marker.x(), 2 + marker.z(), 3 - marker.y()});
     }
-    return !exchangeable_handedness({image.size(), mirrored_match_rms(image, robot, 0.003)},
-                                    kError);
+    return !exchangeable_handedness(match_markers(image, robot, 0.003).value(), kError);
   };
   EXPECT_FALSE(told(alike, 1));
   EXPECT_FALSE(told(alike, -1)) << "which is the same points";
@@ -100,7 +99,7 @@ TEST_F(Handedness, ThatIsNotToldIsRefusedWithFiguresAndTheWayOut) {
   flat.robot = flat.image;
   flat.robot[0].x() += 0.003;
   EXPECT_EQ(
-      exchangeable_handedness({5, 0.0004}, 0.0005).value_or(""),
+      exchangeable_handedness({std::vector<std::size_t>(5), 0.0004}, 0.0005).value_or(""),
       "the markers do not tell whether the images are mirrored: exchanged, they fit their "
       "mirror image to 0.4 mm, and an error of 0.5 mm a marker explains 0.88 mm. Put a marker "
       "where none is on the other side, or vouch for the images (handedness_vouched: true)");

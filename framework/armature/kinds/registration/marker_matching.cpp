@@ -29,8 +29,7 @@ class Search {
     extend();
   }
 
-  Expected<Choice> answer() const;
-  double best_mirrored_m() const { return best_mirrored_m_; }
+  Expected<MarkerMatch> answer() const;
 
  private:
   struct Fit {
@@ -100,7 +99,7 @@ std::string Search::exchanged() const {
   return text;
 }
 
-Expected<Choice> Search::answer() const {
+Expected<MarkerMatch> Search::answer() const {
   if (work_ > kMaxWork) {
     return refuse(
         fmt::format("too many ways to match {} markers with {} points within {:.6g} mm: "
@@ -126,7 +125,7 @@ Expected<Choice> Search::answer() const {
                     "exchanged to {:.3f} mm)",
                     exchanged(), 1e3 * best_.rms_m, 1e3 * second_.rms_m));
   }
-  return best_.choice;
+  return MarkerMatch{best_.choice, best_mirrored_m_};
 }
 
 std::optional<std::string> unusable(std::span<const Eigen::Vector3d> planned,
@@ -150,17 +149,10 @@ std::optional<std::string> unusable(std::span<const Eigen::Vector3d> planned,
 
 }  // namespace
 
-Expected<std::vector<std::size_t>> match_markers(std::span<const Eigen::Vector3d> planned,
-                                                 std::span<const Eigen::Vector3d> measured,
-                                                 double tolerance_m) {
+Expected<MarkerMatch> match_markers(std::span<const Eigen::Vector3d> planned,
+                                    std::span<const Eigen::Vector3d> measured, double tolerance_m) {
   if (auto wrong = unusable(planned, measured, tolerance_m)) return refuse(std::move(*wrong));
   return Search{planned, measured, tolerance_m}.answer();
-}
-
-double mirrored_match_rms(std::span<const Eigen::Vector3d> planned,
-                          std::span<const Eigen::Vector3d> measured, double tolerance_m) {
-  if (unusable(planned, measured, tolerance_m)) return std::numeric_limits<double>::infinity();
-  return Search{planned, measured, tolerance_m}.best_mirrored_m();
 }
 
 }  // namespace armature

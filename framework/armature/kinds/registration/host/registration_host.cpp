@@ -33,16 +33,16 @@ Points points_of(const std::vector<msg::Point>& message) {
 
 /// All that a request asks for.
 struct Answer {
-  std::vector<std::size_t> robot_marker;  // of each image marker
+  MarkerMatch match;  // of the image's markers
   Registration found;
   std::vector<PointError> errors;  // of each target
 };
 
-Expected<std::vector<std::size_t>> matched(const msg::RegistrationRequest& request,
-                                           const Points& image, const Points& robot) {
+Expected<MarkerMatch> matched(const msg::RegistrationRequest& request, const Points& image,
+                              const Points& robot) {
   if (!request.ordered_()) return match_markers(image, robot, request.match_tolerance_());
-  std::vector<std::size_t> same(robot.size());
-  std::iota(same.begin(), same.end(), std::size_t{0});
+  MarkerMatch same{std::vector<std::size_t>(robot.size())};
+  std::iota(same.measured.begin(), same.measured.end(), std::size_t{0});
   return same;
 }
 
@@ -86,7 +86,7 @@ Expected<Answer> answer_to(const Registrar& registrar, const Parameters& paramet
   const Points robot = points_of(request.robot_markers_());
   auto match = matched(request, markers.image, robot);
   if (!match) return tl::unexpected{match.error()};
-  for (const std::size_t i : *match) markers.robot.push_back(robot[i]);
+  for (const std::size_t i : match->measured) markers.robot.push_back(robot[i]);
   auto found = guarded([&] { return registrar.find(markers); });
   if (!found) return tl::unexpected{found.error()};
   Answer answer{std::move(*match), std::move(*found), {}};
@@ -104,12 +104,7 @@ Expected<Answer> answer_to(const Registrar& registrar, const Parameters& paramet
   if (unexplained) return refuse(std::move(*unexplained));
   if (!parameters.handedness_vouched) {
     auto unchecked = unchecked_handedness(markers, answer.found, request.marker_error_());
-    if (!unchecked && !request.ordered_()) {
-      unchecked = exchangeable_handedness(
-          {markers.image.size(),
-           mirrored_match_rms(markers.image, robot, request.match_tolerance_())},
-          request.marker_error_());
-    }
+    if (!unchecked) unchecked = exchangeable_handedness(answer.match, request.marker_error_());
     if (unchecked) return refuse(std::move(*unchecked));
   }
   if (auto unchecked = raise_errors(markers, request, answer)) return refuse(std::move(*unchecked));
@@ -124,7 +119,7 @@ void write(const Answer& answer, const std::vector<msg::Point>& targets,
       response.robot_t_image_()[static_cast<std::size_t>(4 * row + column)] = map(row, column);
     }
   }
-  response.robot_marker_().assign(answer.robot_marker.begin(), answer.robot_marker.end());
+  response.robot_marker_().assign(answer.match.measured.begin(), answer.match.measured.end());
   response.used_() = answer.found.used;
   response.residuals_() = answer.found.residual_m;
   response.fre_(answer.found.fre_m);

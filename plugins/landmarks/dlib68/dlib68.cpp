@@ -18,8 +18,6 @@ namespace {
 using dlib_chip::Chip;
 
 constexpr double kChipScale = 1.4;  // landmarks are sought in the box, this much larger
-constexpr double kMinFace = 1;      // [px] width of a box that can hold a face at all
-constexpr double kMaxFace = 1e5;
 
 using Model = std::shared_ptr<const Cascade>;
 
@@ -80,14 +78,7 @@ Expected<std::unique_ptr<LandmarkFinder>> Dlib68::make(const Params& params) {
 // removes most of what depends on the detector's coarse box.
 Expected<std::vector<Landmark>> Dlib68::find(const ImageView& image, const PixelBox& face) {
   if (auto wrong = invalid_input(image)) return refuse(*wrong);
-  // Written so that what is not finite is refused, too.
-  const auto is_size = [](double size) { return size >= kMinFace && size <= kMaxFace; };
-  if (!is_size(face.width) || !is_size(face.height)) return refuse("the face's box has no size");
-  const double shape = face.height / face.width;
-  if (shape < 0.1 || shape > 10) return refuse("the face's box is ten times as long as wide");
-  const auto is_near = [](double at) { return std::abs(at) <= kMaxFace; };
-  if (!is_near(face.left) || !is_near(face.top))
-    return refuse("the face's box is not in the image");
+  if (auto wrong = invalid_input(face)) return refuse(*wrong);
   const double scale = parameters_.face_width / face.width;
   const Chip chip = dlib_chip::cut(dlib_chip::copied(image), face.scaled(kChipScale), scale);
   std::vector<Landmark> sum(landmark_count(scheme()),

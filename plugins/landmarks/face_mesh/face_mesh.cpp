@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstddef>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -22,19 +21,6 @@ namespace {
 
 constexpr double kBoxScale = 1.8;   // the network looks at the detector's box, this much larger,
 constexpr double kMeshScale = 1.4;  // then at what it found there, this much larger
-constexpr double kMinFace = 1;      // [px] width of a box that can hold a face at all
-constexpr double kMaxFace = 1e5;
-
-/// Why a box can hold no face, or nothing. Written so that what is not finite is refused, too.
-std::optional<std::string> invalid_box(const PixelBox& face) {
-  const auto is_size = [](double size) { return size >= kMinFace && size <= kMaxFace; };
-  if (!is_size(face.width) || !is_size(face.height)) return "the face's box has no size";
-  const double shape = face.height / face.width;
-  if (shape < 0.1 || shape > 10) return "the face's box is ten times as long as wide";
-  const auto is_near = [](double at) { return std::abs(at) <= kMaxFace; };
-  if (!is_near(face.left) || !is_near(face.top)) return "the face's box is not in the image";
-  return std::nullopt;
-}
 
 /// The square about a mesh, larger by kMeshScale.
 Crop crop_around(const Mesh& mesh) {
@@ -152,7 +138,7 @@ Expected<std::vector<Landmark>> FaceMesh::look(const ImageView& image, const Cro
 
 Expected<std::vector<Landmark>> FaceMesh::find(const ImageView& image, const PixelBox& face) {
   if (auto wrong = invalid_input(image)) return refuse(*wrong);
-  if (auto wrong = invalid_box(face)) return refuse(*wrong);
+  if (auto wrong = invalid_input(face)) return refuse(*wrong);
   const auto rough =
       search(image, {.middle = {face.left + 0.5 * face.width, face.top + 0.5 * face.height},
                      .side = kBoxScale * std::max(face.width, face.height)});

@@ -62,6 +62,18 @@ Landmark FaceLandmarks::feature(FaceFeature which) const {
   return centre;
 }
 
+std::optional<std::string> invalid_input(const PixelBox& face) {
+  constexpr double kMinFace = 1, kMaxFace = 1e5;  // [px]
+  // Written so that what is not finite is refused, too.
+  const auto is_size = [](double size) { return size >= kMinFace && size <= kMaxFace; };
+  if (!is_size(face.width) || !is_size(face.height)) return "the face's box has no size";
+  const double shape = face.height / face.width;
+  if (shape < 0.1 || shape > 10) return "the face's box is ten times as long as wide";
+  const auto is_near = [](double at) { return std::abs(at) <= kMaxFace; };
+  if (!is_near(face.left) || !is_near(face.top)) return "the face's box is not in the image";
+  return std::nullopt;
+}
+
 std::optional<std::string> invalid_input(const FaceLandmarks& face) {
   const std::size_t count = landmark_count(face.scheme);
   if (face.points.size() != count) {

@@ -67,6 +67,9 @@ struct FaceLandmarks {
   Landmark feature(FaceFeature which) const;
 };
 
+/// nullopt, or why no landmarks are sought in such a box: it can hold no face, or is not finite.
+std::optional<std::string> invalid_input(const PixelBox& face);
+
 /// nullopt, or why these are no landmarks: not as many as their scheme has, or one that is not
 /// finite or has no sigma.
 std::optional<std::string> invalid_input(const FaceLandmarks& face);

@@ -31,25 +31,6 @@ std::optional<std::string> no_pair(const ImageView& left, const ImageView& right
   return "the left image is " + size(left) + " pixels, the right one " + size(right);
 }
 
-PixelBox whole(const ImageView& image) {
-  return {0, 0, static_cast<double>(image.width - 1), static_cast<double>(image.height - 1)};
-}
-
-/// Mean grey value of the image inside `box`.
-double mean_intensity(const ImageView& image, const PixelBox& box) {
-  const auto pixel = [](double at, int size) { return std::clamp(at, 0.0, size - 1.0); };
-  const auto left = static_cast<std::size_t>(pixel(std::floor(box.left), image.width));
-  const auto top = static_cast<std::size_t>(pixel(std::floor(box.top), image.height));
-  const auto right = static_cast<std::size_t>(pixel(std::ceil(box.right()), image.width));
-  const auto bottom = static_cast<std::size_t>(pixel(std::ceil(box.bottom()), image.height));
-  double sum = 0;
-  for (std::size_t v = top; v <= bottom; ++v) {
-    const std::uint8_t* row = image.data + v * image.stride;
-    sum += static_cast<double>(std::accumulate(row + left, row + right + 1, std::uint64_t{0}));
-  }
-  return sum / static_cast<double>((right - left + 1) * (bottom - top + 1));
-}
-
 bool is_sound(const PixelBox& box) {
   return std::isfinite(box.left) && std::isfinite(box.top) && std::isfinite(box.width) &&
          std::isfinite(box.height) && box.width > 0 && box.height > 0;
@@ -113,6 +94,24 @@ void follow(const FaceLandmarks& found, StereoFaceFinder::State::Face& face) {
 }
 
 }  // namespace
+
+PixelBox whole(const ImageView& image) {
+  return {0, 0, static_cast<double>(image.width - 1), static_cast<double>(image.height - 1)};
+}
+
+double mean_intensity(const ImageView& image, const PixelBox& box) {
+  const auto pixel = [](double at, int size) { return std::clamp(at, 0.0, size - 1.0); };
+  const auto left = static_cast<std::size_t>(pixel(std::floor(box.left), image.width));
+  const auto top = static_cast<std::size_t>(pixel(std::floor(box.top), image.height));
+  const auto right = static_cast<std::size_t>(pixel(std::ceil(box.right()), image.width));
+  const auto bottom = static_cast<std::size_t>(pixel(std::ceil(box.bottom()), image.height));
+  double sum = 0;
+  for (std::size_t v = top; v <= bottom; ++v) {
+    const std::uint8_t* row = image.data + v * image.stride;
+    sum += static_cast<double>(std::accumulate(row + left, row + right + 1, std::uint64_t{0}));
+  }
+  return sum / static_cast<double>((right - left + 1) * (bottom - top + 1));
+}
 
 Expected<StereoLandmarks> StereoFaceFinder::find(const ImageView& left, const ImageView& right,
                                                  State& state) {

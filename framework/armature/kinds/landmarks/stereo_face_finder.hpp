@@ -12,6 +12,11 @@
 
 namespace armature ARMATURE_EXPORT {
 
+/// All of an image.
+PixelBox whole(const ImageView& image);
+/// Mean grey value of the image inside `box`.
+double mean_intensity(const ImageView& image, const PixelBox& box);
+
 /// Finds the landmarks of one face in the pictures of a rectified stereo pair, one pair after the
 /// other.
 ///

@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <cstdint>
-#include <numeric>
-
 #include "armature/kinds/landmarks/landmark_messages.hpp"
 #include "armature/kinds/landmarks/stereo_face_finder.hpp"
 #include "armature/runtime/component/component.hpp"
@@ -13,15 +10,6 @@
 
 namespace armature::host::landmarks {
 namespace {
-
-double mean_intensity(const ImageView& image) {
-  std::uint64_t sum = 0;
-  for (int v = 0; v < image.height; ++v) {
-    const std::uint8_t* row = image.data + static_cast<std::size_t>(v) * image.stride;
-    sum = std::accumulate(row, row + image.width, sum);
-  }
-  return static_cast<double>(sum) / (static_cast<double>(image.width) * image.height);
-}
 
 StereoFaceFinder::Options options_of(const Parameters& parameters) {
   return {.stretch_below = parameters.stretch_below, .detect_every = parameters.detect_every};
@@ -70,7 +58,7 @@ void LandmarksHost::step(Time) {
   auto answer = ports_.landmarks.loan();
   answer->header_() = left.header_();
   const auto view = image_of(left);
-  answer->image_intensity_(view ? mean_intensity(*view) : 0.0);
+  answer->image_intensity_(view ? mean_intensity(*view, whole(*view)) : 0.0);
   if (found) {
     write_landmarks(*found, *answer);
   } else {

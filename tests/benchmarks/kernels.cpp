@@ -16,6 +16,7 @@
 #include "armature/kinds/ik/batch.hpp"
 #include "armature/kinds/ik/verify/plugin_subject.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/kinematics/task_error.hpp"
 #include "armature/robot/orientations/orientation_curve.hpp"
 
 namespace armature {
@@ -39,16 +40,7 @@ std::vector<JointVector> postures(const RobotModel& robot) {
 }
 
 IkGoal goal_at(const RobotModel& robot, const JointVector& q) {
-  const Eigen::Isometry3d pose = forward_kinematics(robot, q);
-  IkGoal goal;
-  goal.tolerance = {.position_m = 1e-6, .angle_rad = 1e-6};
-  goal.pose.position = pose.translation();
-  if (robot.pointing_axis()) {
-    goal.pose.orientation = Direction{pose.linear() * *robot.pointing_axis()};
-  } else {
-    goal.pose.orientation = Eigen::Quaterniond{pose.linear()};
-  }
-  return goal;
+  return {.pose = task_pose(robot, q), .tolerance = {.position_m = 1e-6, .angle_rad = 1e-6}};
 }
 
 void fk(benchmark::State& state, const RobotPtr& robot) {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/kinematics/task_error.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "interned_text.hpp"
 
@@ -14,19 +14,6 @@ namespace armature::ik::process {
 namespace {
 
 using Code = IkStatus::Code;
-
-/// The goal that the robot's resting position reaches.
-IkGoal resting_goal(const RobotModel& model, const JointVector& q) {
-  const Eigen::Isometry3d base_T_tool = forward_kinematics(model, q);
-  IkGoal goal;
-  goal.pose.position = base_T_tool.translation();
-  if (model.pointing_axis()) {
-    goal.pose.orientation = Direction{(base_T_tool.linear() * *model.pointing_axis()).normalized()};
-  } else {
-    goal.pose.orientation = Eigen::Quaterniond{base_T_tool.linear()}.normalized();
-  }
-  return goal;
-}
 
 bool misses(const PoseResidual& residual, const IkGoal& goal) {
   constexpr double kRounding = 1e-12;  // [m], [rad]
@@ -42,7 +29,7 @@ Expected<std::unique_ptr<IkSolver>> Process::make(const RobotModel& model, const
   if (!command) return tl::unexpected{command.error()};
   std::unique_ptr<Process> made{new Process{model, std::move(*command), parameters}};
   const JointVector resting = resting_position(model);
-  const auto told = made->ask_once({.goal = resting_goal(model, resting), .seed = resting});
+  const auto told = made->ask_once({.goal = {.pose = task_pose(model, resting)}, .seed = resting});
   if (!told) return tl::unexpected{told.error()};
   if (told->code == Code::invalid_input) {
     return refuse(

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/robot/kinematics/task_error.hpp"
 #include "armature/values/angles.hpp"
 #include "bench/random_joints.hpp"
 
@@ -31,13 +31,7 @@ std::vector<Pose> poses(const RobotModel& model, int count, std::uint64_t seed, 
   std::vector<Pose> list(static_cast<std::size_t>(count));
   for (Pose& pose : list) {
     pose.q = anywhere(model, random);
-    const Eigen::Isometry3d reached = forward_kinematics(model, pose.q);
-    pose.goal.pose.position = reached.translation();
-    if (model.pointing_axis()) {
-      pose.goal.pose.orientation = Direction{reached.linear() * *model.pointing_axis()};
-    } else {
-      pose.goal.pose.orientation = Eigen::Quaterniond{reached.linear()}.normalized();
-    }
+    pose.goal.pose = task_pose(model, pose.q);
     pose.goal.tolerance = {.position_m = tolerance, .angle_rad = tolerance};
     pose.random = anywhere(model, random);
     pose.near = next_to(model, pose.q, random);

@@ -48,6 +48,13 @@ Vector3d turn_between(const Eigen::Quaterniond& from, const Eigen::Quaterniond& 
 
 }  // namespace
 
+ToolPose task_pose(const RobotModel& model, const JointVector& q) {
+  const Eigen::Isometry3d base_T_tool = forward_kinematics(model, q);
+  const Eigen::Vector3d at = base_T_tool.translation();
+  if (!model.pointing_axis()) return {at, Eigen::Quaterniond{base_T_tool.linear()}.normalized()};
+  return {at, Direction{(base_T_tool.linear() * *model.pointing_axis()).normalized()}};
+}
+
 TaskJacobian task_jacobian(const RobotModel& model, const JointVector& q) {
   const auto [base_T_tool, jacobian] = forward_kinematics_with_jacobian(model, q, model.tool());
   if (!model.pointing_axis()) return jacobian;

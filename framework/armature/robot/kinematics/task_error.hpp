@@ -14,6 +14,10 @@ namespace armature ARMATURE_EXPORT {
 using TaskJacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, kMaxJoints>;
 using TaskVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
+/// Where the tool is at the joints `q`: with a pointing axis its direction, else its rotation.
+/// Real-time safe.
+ToolPose task_pose(const RobotModel& model, const JointVector& q);
+
 /// The rows that the robot's own task uses: 5 with a pointing axis, else 6. Real-time safe.
 TaskJacobian task_jacobian(const RobotModel& model, const JointVector& q);
 

@@ -42,17 +42,7 @@ JointVector Probe::random_joints() {
   return q;
 }
 
-IkGoal Probe::goal_at(const JointVector& q) const {
-  const Eigen::Isometry3d pose = forward_kinematics(model(), q);
-  IkGoal goal;
-  goal.pose.position = pose.translation();
-  if (model().pointing_axis()) {
-    goal.pose.orientation = Direction{(pose.linear() * *model().pointing_axis()).normalized()};
-  } else {
-    goal.pose.orientation = Eigen::Quaterniond{pose.linear()}.normalized();
-  }
-  return goal;
-}
+IkGoal Probe::goal_at(const JointVector& q) const { return {.pose = task_pose(model(), q)}; }
 
 PoseResidual Probe::residual_of(const JointVector& q, const IkGoal& goal) const {
   const Eigen::Vector3d axis = model().pointing_axis().value_or(Eigen::Vector3d::UnitX());

@@ -5,11 +5,15 @@
 #include <numbers>
 
 namespace armature::bench {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi;
+
+}  // namespace
 
 double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
 
 Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
-  constexpr double kTurn = 2 * std::numbers::pi;
   const double u = unit(random), a = kTurn * unit(random), b = kTurn * unit(random);
   const double low = std::sqrt(1 - u), high = std::sqrt(u);
   return {high * std::cos(b), low * std::sin(a), low * std::cos(a), high * std::sin(b)};
@@ -17,8 +21,10 @@ Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
 
 std::pair<double, double> range(const RobotModel& model, int i) {
   const double lower = model.lower()[i], upper = model.upper()[i];
-  const bool finite = std::isfinite(lower) && std::isfinite(upper);
-  return finite ? std::pair{lower, upper} : std::pair{-std::numbers::pi, std::numbers::pi};
+  if (std::isfinite(lower) && std::isfinite(upper)) return {lower, upper};
+  if (std::isfinite(lower)) return {lower, lower + kTurn};
+  if (std::isfinite(upper)) return {upper - kTurn, upper};
+  return {-kTurn / 2, kTurn / 2};
 }
 
 JointVector anywhere(const RobotModel& model, std::mt19937_64& random) {

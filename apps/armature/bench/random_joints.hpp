@@ -15,7 +15,7 @@ double unit(std::mt19937_64& random);
 /// Uniform over all rotations (Shoemake 1992, "Uniform random rotations").
 Eigen::Quaterniond any_rotation(std::mt19937_64& random);
 
-/// Limits of independent joint `i`, or a turn where there are none.
+/// Limits of independent joint `i`; where one of them or both are missing, a turn.
 std::pair<double, double> range(const RobotModel& model, int i);
 
 /// Every joint uniform in its range.

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "bench/random_joints.hpp"
 
 namespace armature {
 namespace {
@@ -55,20 +56,6 @@ Vector3d any_place(const RemoteCentre& centre, double min_depth, std::mt19937_64
   return centre.point + depth * Vector3d{radius * std::cos(angle), radius * std::sin(angle), z};
 }
 
-struct Range {
-  double lower, upper;
-};
-
-/// The range of a joint that is looked at: its limits, or one turn where it turns without an end.
-Range range_of(const RobotModel& model, int joint) {
-  const double lower = model.lower()[joint], upper = model.upper()[joint];
-  if (std::isfinite(lower) && std::isfinite(upper)) return {lower, upper};
-  constexpr double kTurn = 2 * std::numbers::pi;
-  if (std::isfinite(lower)) return {lower, lower + kTurn};
-  if (std::isfinite(upper)) return {upper - kTurn, upper};
-  return {-kTurn / 2, kTurn / 2};
-}
-
 }  // namespace
 
 Workspace free_workspace(const RobotModel& model, std::size_t samples, std::uint64_t seed) {
@@ -78,7 +65,7 @@ Workspace free_workspace(const RobotModel& model, std::size_t samples, std::uint
   for (std::size_t i = 0; i < samples; ++i) {
     JointVector q{model.dof()};
     for (int j = 0; j < model.dof(); ++j) {
-      const auto [lower, upper] = range_of(model, j);
+      const auto [lower, upper] = bench::range(model, j);
       q[j] = lower + part(random) * (upper - lower);
     }
     found.points.push_back({forward_kinematics(model, q).translation(), q});

@@ -8,6 +8,7 @@
 
 #include "armature/robot/model/robot_model.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
+#include "armature/runtime/deployment_file/graph.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
 #include "exit_code.hpp"
 #include "run/named_deployment.hpp"
@@ -64,26 +65,13 @@ std::vector<JointLimit> limits_of(const ComponentConfig& driver,
   return limits;
 }
 
-const PortBinding* find_input(const ComponentConfig& component, std::string_view name) {
-  const auto found = std::ranges::find_if(
-      component.inputs, [&](const PortBinding& input) { return input.spec.name == name; });
-  return found == component.inputs.end() ? nullptr : &*found;
-}
-
-bool is_written(const std::string& topic, const DeploymentConfig& deployment) {
-  return std::ranges::any_of(deployment.components, [&](const ComponentConfig& component) {
-    return std::ranges::find(component.outputs, topic, &PortBinding::topic) !=
-           component.outputs.end();
-  });
-}
-
 std::vector<HeedsPendant> heed_pendants(const DeploymentConfig& deployment) {
   std::vector<HeedsPendant> heed;
   for (const ComponentConfig& component : deployment.components) {
-    const PortBinding* hold = find_input(component, "hold_to_run");
-    const PortBinding* rearm = find_input(component, "rearm");
-    if (!hold || !rearm || is_written(hold->topic, deployment) ||
-        is_written(rearm->topic, deployment)) {
+    const PortBinding* hold = find_port(component.inputs, "hold_to_run");
+    const PortBinding* rearm = find_port(component.inputs, "rearm");
+    if (!hold || !rearm || writer_of(hold->topic, deployment) ||
+        writer_of(rearm->topic, deployment)) {
       continue;
     }
     heed.push_back(
@@ -112,13 +100,6 @@ std::vector<TopicSpec> inputs_of(const DeploymentConfig& deployment,
   return inputs;
 }
 
-bool reads_any_of(const ComponentConfig& reader, const ComponentConfig& writer) {
-  return std::ranges::any_of(reader.inputs, [&](const PortBinding& input) {
-    return std::ranges::find(writer.outputs, input.topic, &PortBinding::topic) !=
-           writer.outputs.end();
-  });
-}
-
 /// Settings that leave out the reports: a report ends the run when the task gives up. Nothing else
 /// changes where nobody reads what the report writes.
 std::vector<std::string> without_reports(const DeploymentConfig& deployment) {
@@ -126,7 +107,7 @@ std::vector<std::string> without_reports(const DeploymentConfig& deployment) {
   for (const ComponentConfig& report : deployment.components) {
     const bool is_read =
         std::ranges::any_of(deployment.components, [&](const ComponentConfig& component) {
-          return component.name != report.name && reads_any_of(component, report);
+          return component.name != report.name && reads_from(component, report);
         });
     const bool only_measures = !report.manifest->measures.empty() && !is_driver(report) && !is_read;
     if (!is_entry(report) || !only_measures) continue;
@@ -141,17 +122,17 @@ std::vector<std::string> without_reports(const DeploymentConfig& deployment) {
 
 /// Where somebody of the deployment moves it by hand; empty where nobody does.
 std::string hand_of(const ComponentConfig& driver, const DeploymentConfig& deployment) {
-  const PortBinding* hand = find_input(driver, "hand_js");
+  const PortBinding* hand = find_port(driver.inputs, "hand_js");
   const bool is_told = hand && hand->spec.type == "sensor_msgs/JointState";
-  return is_told && is_written(hand->topic, deployment) ? hand->topic : std::string{};
+  return is_told && writer_of(hand->topic, deployment) ? hand->topic : std::string{};
 }
 
 /// Where its power is switched; empty where it has no such input or the deployment switches it.
 std::string power_of(const ComponentConfig& driver, const DeploymentConfig& deployment) {
-  const PortBinding* power = find_input(driver, "power");
+  const PortBinding* power = find_port(driver.inputs, "power");
   const bool takes_switch = power && power->spec.outside && power->spec.type == "std_msgs/Bool" &&
                             power->spec.qos == QosProfile::latched;
-  return takes_switch && !is_written(power->topic, deployment) ? power->topic : std::string{};
+  return takes_switch && !writer_of(power->topic, deployment) ? power->topic : std::string{};
 }
 
 /// Puts entries of the file into processes of their own.

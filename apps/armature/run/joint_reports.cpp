@@ -10,6 +10,7 @@
 
 #include "armature/config/problems.hpp"
 #include "armature/runtime/deployment_file/component_config.hpp"
+#include "armature/runtime/deployment_file/graph.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
 
 namespace armature {
@@ -17,25 +18,10 @@ namespace {
 
 using config::Node;
 
-const PortBinding* find_port(const std::vector<PortBinding>& ports, std::string_view name) {
-  const auto found =
-      std::ranges::find(ports, name, [](const auto& port) { return port.spec.name; });
-  return found == ports.end() ? nullptr : &*found;
-}
-
 const PortBinding* find_type(const std::vector<PortBinding>& ports, std::string_view type) {
   const auto found =
       std::ranges::find(ports, type, [](const auto& port) { return port.spec.type; });
   return found == ports.end() ? nullptr : &*found;
-}
-
-const ComponentConfig* writer_of(const std::string& topic, const DeploymentConfig& deployment) {
-  const auto writes = [&](const ComponentConfig& component) {
-    return std::ranges::find(component.outputs, topic, &PortBinding::topic) !=
-           component.outputs.end();
-  };
-  const auto writer = std::ranges::find_if(deployment.components, writes);
-  return writer == deployment.components.end() ? nullptr : &*writer;
 }
 
 /// The topics of the report's inputs: the arm's, and of the motion that commands it the goals.

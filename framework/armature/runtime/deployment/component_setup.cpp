@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/runtime/deployment_file/graph.hpp"
+
 namespace armature {
 namespace {
 
@@ -65,9 +67,8 @@ void ComponentSetup::activate_every(Duration period) {
 const PortBinding& ComponentSetup::declared(const std::vector<PortBinding>& ports,
                                             std::string_view direction, std::string_view name,
                                             const MessageType& type) {
-  const auto port = std::find_if(ports.begin(), ports.end(),
-                                 [&](const PortBinding& p) { return p.spec.name == name; });
-  if (port == ports.end()) {
+  const PortBinding* port = find_port(ports, name);
+  if (!port) {
     throw std::logic_error(
         fmt::format("plugin '{}' claims the {} '{}', which its plugin.yaml does "
                     "not declare",
@@ -79,7 +80,7 @@ const PortBinding& ComponentSetup::declared(const std::vector<PortBinding>& port
                     "{}",
                     config_.manifest->id, direction, name, type.ros_name, port->spec.type));
   }
-  claimed_.insert(&*port);
+  claimed_.insert(port);
   return *port;
 }
 
@@ -114,13 +115,8 @@ OutputPort& ComponentSetup::claim_output(std::string_view port, const MessageTyp
 }
 
 bool ComponentSetup::is_written(std::string_view input) const {
-  const auto port =
-      std::ranges::find(config_.inputs, input, [](const PortBinding& p) { return p.spec.name; });
-  if (port == config_.inputs.end()) return false;
-  return std::ranges::any_of(deployment_.components, [&](const ComponentConfig& component) {
-    return std::ranges::find(component.outputs, port->topic, &PortBinding::topic) !=
-           component.outputs.end();
-  });
+  const PortBinding* port = find_port(config_.inputs, input);
+  return port && writer_of(port->topic, deployment_);
 }
 
 const SlotConfig& ComponentSetup::slot_config(std::string_view slot) const {

@@ -233,14 +233,31 @@ void check_graph(DeploymentConfig& deployment, const PluginRegistry& plugins,
   place_components(deployment, writers, problems);
 }
 
+const PortBinding* find_port(const std::vector<PortBinding>& ports, std::string_view name) {
+  const auto is_it = [&](const PortBinding& port) { return port.spec.name == name; };
+  const auto found = std::ranges::find_if(ports, is_it);
+  return found == ports.end() ? nullptr : &*found;
+}
+
+bool has_topic(const std::vector<PortBinding>& ports, std::string_view topic) {
+  return std::ranges::find(ports, topic, &PortBinding::topic) != ports.end();
+}
+
+const ComponentConfig* writer_of(std::string_view topic, const DeploymentConfig& deployment) {
+  const auto& all = deployment.components;
+  const auto writes = [&](const ComponentConfig& one) { return has_topic(one.outputs, topic); };
+  const auto writer = std::ranges::find_if(all, writes);
+  return writer == all.end() ? nullptr : &*writer;
+}
+
+bool reads_from(const ComponentConfig& reader, const ComponentConfig& writer) {
+  return std::ranges::any_of(writer.outputs, [&](const PortBinding& output) {
+    return has_topic(reader.inputs, output.topic);
+  });
+}
+
 bool exchange_topics(const ComponentConfig& a, const ComponentConfig& b) {
-  const auto reads = [](const ComponentConfig& reader, const ComponentConfig& writer) {
-    return std::ranges::any_of(writer.outputs, [&](const PortBinding& output) {
-      return std::ranges::find(reader.inputs, output.topic, &PortBinding::topic) !=
-             reader.inputs.end();
-    });
-  };
-  return reads(a, b) || reads(b, a);
+  return reads_from(a, b) || reads_from(b, a);
 }
 
 }  // namespace armature

@@ -13,6 +13,13 @@ namespace armature ARMATURE_EXPORT {
 void check_graph(DeploymentConfig& deployment, const PluginRegistry& plugins,
                  config::Problems& problems);
 
+/// The port of that name; null: there is none.
+const PortBinding* find_port(const std::vector<PortBinding>& ports, std::string_view name);
+/// Whether one of the ports is on that topic.
+bool has_topic(const std::vector<PortBinding>& ports, std::string_view topic);
+/// The first one that writes that topic; null: nobody does.
+const ComponentConfig* writer_of(std::string_view topic, const DeploymentConfig& deployment);
+bool reads_from(const ComponentConfig& reader, const ComponentConfig& writer);
 /// Whether one of them reads what the other one writes.
 bool exchange_topics(const ComponentConfig& a, const ComponentConfig& b);
 

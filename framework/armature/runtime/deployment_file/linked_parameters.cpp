@@ -20,8 +20,7 @@ bool has_param(const ComponentConfig& component, std::string_view name) {
 /// Whether `reader` reads what `writer` writes on its output of that name.
 bool reads(const ComponentConfig& reader, const ComponentConfig& writer, std::string_view output) {
   return std::ranges::any_of(writer.outputs, [&](const PortBinding& out) {
-    return out.spec.name == output &&
-           std::ranges::find(reader.inputs, out.topic, &PortBinding::topic) != reader.inputs.end();
+    return out.spec.name == output && has_topic(reader.inputs, out.topic);
   });
 }
 

@@ -7,15 +7,10 @@
 #include <algorithm>
 #include <set>
 
+#include "armature/runtime/deployment_file/graph.hpp"
+
 namespace armature {
 namespace {
-
-bool feeds(const ComponentConfig& writer, const ComponentConfig& reader) {
-  return std::ranges::any_of(writer.outputs, [&](const PortBinding& output) {
-    return std::ranges::find(reader.inputs, output.topic, &PortBinding::topic) !=
-           reader.inputs.end();
-  });
-}
 
 using Components = std::set<const ComponentConfig*>;
 
@@ -31,7 +26,8 @@ Components drivers_of(const DeploymentConfig& deployment) {
 Components feeding(const Components& readers, const DeploymentConfig& deployment) {
   Components writers;
   for (const ComponentConfig& component : deployment.components) {
-    if (std::ranges::any_of(readers, [&](const auto* one) { return feeds(component, *one); })) {
+    if (std::ranges::any_of(readers,
+                            [&](const auto* one) { return reads_from(*one, component); })) {
       writers.insert(&component);
     }
   }
@@ -77,8 +73,7 @@ bool commands_driver(const ComponentConfig& component, const DeploymentConfig& d
   return std::ranges::any_of(deployment.components, [&](const ComponentConfig& driver) {
     return is_driver(driver) && std::ranges::any_of(driver.inputs, [&](const PortBinding& input) {
              return input.spec.qos == QosProfile::command &&
-                    std::ranges::find(component.outputs, input.topic, &PortBinding::topic) !=
-                        component.outputs.end();
+                    has_topic(component.outputs, input.topic);
            });
   });
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace armature::bench {
@@ -9,6 +10,14 @@ namespace armature::bench {
 /// The value below which `part` (0 to 1) of `values` lie, between two of them by interpolation. NaN
 /// of none.
 double quantile(std::vector<double> values, double part);
+
+/// The median of what `value` says of each round.
+template <class Round, class Value>
+double median_over(const std::vector<Round>& rounds, Value value) {
+  std::vector<double> values;
+  for (const Round& round : rounds) values.push_back(value(round));
+  return quantile(std::move(values), 0.5);
+}
 
 struct Interval {
   double lower = 0, middle = 0, upper = 0;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -33,15 +32,10 @@ constexpr std::array<NamedPart, 7> kParts{{
     {"picture", "the same by topics", &BusRound::picture},
 }};
 
-double median_over(const BusReport& report, const std::function<double(const BusRound&)>& value) {
-  std::vector<double> values;
-  for (const BusRound& round : report.rounds) values.push_back(value(round));
-  return quantile(std::move(values), 0.5);
-}
-
 double allowed_small_excess_s(const BusReport& report) {
-  return kMaxHandOvers *
-         median_over(report, [](const BusRound& round) { return round.hand_over_across.p50_s; });
+  return kMaxHandOvers * median_over(report.rounds, [](const BusRound& round) {
+           return round.hand_over_across.p50_s;
+         });
 }
 
 bool is_hop_met(const BusReport& report) {
@@ -60,12 +54,12 @@ const char* verdict(bool met) { return met ? "met" : "MISSED"; }
 }  // namespace
 
 double median_excess_s(const BusReport& report, Part a, Part b) {
-  return median_over(report,
+  return median_over(report.rounds,
                      [&](const BusRound& round) { return (round.*a).p50_s - (round.*b).p50_s; });
 }
 
 double median_ratio(const BusReport& report, Part a, Part b) {
-  return median_over(report,
+  return median_over(report.rounds,
                      [&](const BusRound& round) { return (round.*a).p50_s / (round.*b).p50_s; });
 }
 
@@ -77,10 +71,12 @@ std::string table(const BusReport& report) {
   std::string text =
       fmt::format("{:<38} {:>9} {:>9}\n", "[us], medians of the rounds", "p50", "p99");
   for (const auto& [key, title, part] : kParts) {
-    text += fmt::format(
-        "{:<38} {:>9.1f} {:>9.1f}\n", title,
-        1e6 * median_over(report, [&](const BusRound& round) { return (round.*part).p50_s; }),
-        1e6 * median_over(report, [&](const BusRound& round) { return (round.*part).p99_s; }));
+    text +=
+        fmt::format("{:<38} {:>9.1f} {:>9.1f}\n", title,
+                    1e6 * median_over(report.rounds,
+                                      [&](const BusRound& round) { return (round.*part).p50_s; }),
+                    1e6 * median_over(report.rounds,
+                                      [&](const BusRound& round) { return (round.*part).p99_s; }));
   }
   text += fmt::format("\na hop takes {:.1f} us longer than to wake a thread (goal {:g}): {}\n",
                       1e6 * median_excess_s(report, &BusRound::hop, &BusRound::hand_over_across),

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <utility>
@@ -29,13 +28,6 @@ std::string title(Watching watching, const WatchedBenchOptions& options) {
 const char* key(Watching watching) {
   constexpr std::array kKeys{"alone", "recorded", "read"};
   return kKeys[place(watching)];
-}
-
-double median_over(const WatchedReport& report,
-                   const std::function<double(const WatchedRound&)>& value) {
-  std::vector<double> values;
-  for (const WatchedRound& round : report.rounds) values.push_back(value(round));
-  return quantile(std::move(values), 0.5);
 }
 
 /// What `run` would have taken for the cycles of `alone` [s].
@@ -64,7 +56,7 @@ bool is_met(const WatchedReport& report, Watching watching) {
 }  // namespace
 
 double median_ratio(const WatchedReport& report, Watching watching) {
-  return median_over(report, [&](const WatchedRound& round) {
+  return median_over(report.rounds, [&](const WatchedRound& round) {
     const WatchedRun& alone = round[place(Watching::alone)];
     return own_s(round[place(watching)], alone) / own_s(alone, alone);
   });
@@ -84,11 +76,12 @@ std::string table(const WatchedReport& report) {
       return own_s(round[place(watching)], round[place(Watching::alone)]);
     };
     const auto others = [&](const WatchedRound& round) { return round[place(watching)].others_s; };
-    text += fmt::format(
-        "{:<36} {:>12.1f} {:>8.3f} {:>14.1f} {:>6}{}\n", title(watching, report.options),
-        1e3 * median_over(report, own) / report.options.seconds, median_ratio(report, watching),
-        1e3 * median_over(report, others) / report.options.seconds, lost(report, watching),
-        is_met(report, watching) ? "" : "  MISSED");
+    text += fmt::format("{:<36} {:>12.1f} {:>8.3f} {:>14.1f} {:>6}{}\n",
+                        title(watching, report.options),
+                        1e3 * median_over(report.rounds, own) / report.options.seconds,
+                        median_ratio(report, watching),
+                        1e3 * median_over(report.rounds, others) / report.options.seconds,
+                        lost(report, watching), is_met(report, watching) ? "" : "  MISSED");
   }
   return text + fmt::format(
                     "\ngoal: at most {:g} times the time of the own threads alone, and nothing "

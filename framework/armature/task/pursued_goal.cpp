@@ -14,18 +14,24 @@ constexpr Time kAtOnce{std::numeric_limits<std::int64_t>::min()};
 }  // namespace
 
 void PursuedGoal::set(const MotionGoal& goal) {
-  goal_ = goal;
-  state_ = State::waiting;
-  send_at_ = kAtOnce;
-  broke_down_ = {};
-  once_ = begun_ = resumes_ = false;
-  interrupted_.reset();
-  reason_.clear();
+  replace_by(goal, false);
+  has_moved_ = false;
 }
 
 void PursuedGoal::set_once(const MotionGoal& goal) {
   set(goal);
   once_ = true;
+}
+
+void PursuedGoal::replace_by(const MotionGoal& goal, bool once) {
+  goal_ = goal;
+  state_ = State::waiting;
+  send_at_ = kAtOnce;
+  broke_down_ = {};
+  once_ = once;
+  begun_ = resumes_ = false;
+  interrupted_.reset();
+  reason_.clear();
 }
 
 void PursuedGoal::pause() {
@@ -39,7 +45,7 @@ void PursuedGoal::pause() {
             .pose = {},
             .stepwise = goal_.stepwise};
   }
-  set({.mode = MotionMode::pause, .pose = {}});
+  replace_by({.mode = MotionMode::pause, .pose = {}}, false);
   state_ = State::pausing;
   interrupted_ = {rest, once};
 }
@@ -47,6 +53,12 @@ void PursuedGoal::pause() {
 void PursuedGoal::leave() {
   pause();
   interrupted_.reset();
+  if (state_ == State::done || state_ == State::failed) state_ = State::none;
+}
+
+bool PursuedGoal::left() const {
+  const bool pauses = state_ == State::pausing || state_ == State::paused;
+  return state_ == State::none || (pauses && !interrupted_);
 }
 
 void PursuedGoal::resume() {
@@ -54,15 +66,16 @@ void PursuedGoal::resume() {
   resumes_ = state_ == State::pausing;
   if (resumes_) return;
   const auto [rest, once] = *interrupted_;
-  set(rest);
-  once_ = once;
+  replace_by(rest, once);
 }
 
 void PursuedGoal::retrace(bool stepwise) {
-  set_once({.mode = MotionMode::retrace, .pose = {}, .stepwise = stepwise});
+  replace_by({.mode = MotionMode::retrace, .pose = {}, .stepwise = stepwise}, true);
 }
 
-void PursuedGoal::go_on() { set_once({.mode = MotionMode::resume, .pose = {}, .stepwise = true}); }
+void PursuedGoal::go_on() {
+  replace_by({.mode = MotionMode::resume, .pose = {}, .stepwise = true}, true);
+}
 
 void PursuedGoal::hear(const GoalReport& report, Time now) {
   // A task that starts late, or again, goes on counting where the goals are.
@@ -76,7 +89,9 @@ void PursuedGoal::hear(const GoalReport& report, Time now) {
       break;
     case GoalReport::State::executing:
       begun_ = true;
-      if (state_ == State::waiting) state_ = State::moving;
+      if (state_ != State::waiting) break;
+      state_ = State::moving;
+      has_moved_ = true;
       break;
     case GoalReport::State::done:
       if (state_ == State::pausing || state_ == State::paused) {

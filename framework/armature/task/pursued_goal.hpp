@@ -31,7 +31,8 @@ class PursuedGoal {
   /// Stops an arm that is on its way, along the way where that can be. `hear` tells when it is
   /// paused. Of a goal that has been done, or has failed, nothing moves: nothing to do.
   void pause();
-  /// Stops it in the same way and gives its goal up: a resume does not go on with it.
+  /// Stops it in the same way and gives its goal up: a resume does not go on with it. Of one that
+  /// has been done, or has failed, nothing is heard any more.
   void leave();
   /// Goes on after a pause: a goal that must not be begun a second time along its way, any other
   /// from where the arm is. An arm that still slows down comes to rest first.
@@ -46,6 +47,12 @@ class PursuedGoal {
   std::optional<MotionGoal> outgoing(Time now);
 
   State state() const { return state_; }
+  /// No goal is pursued: none was set yet, or it was left and no other one set.
+  bool left() const;
+  /// And the arm does not slow down from it any more: it may be turned round.
+  bool is_free() const { return left() && state_ != State::pausing; }
+  /// Because of the goal, before a pause of it, or on and back along its way.
+  bool has_moved() const { return has_moved_; }
   /// Refuses while the motion tells that the arm is stopped: a word that wants it moved would do
   /// nothing then.
   Expected<void> may_move() const;
@@ -58,6 +65,8 @@ class PursuedGoal {
   int sent() const { return sent_; }
 
  private:
+  /// `goal` takes the place of the current one, and may belong to its way.
+  void replace_by(const MotionGoal& goal, bool once);
   void give_up_or_try_again(const GoalReport& report, Time now);
   bool worth_another_try(const GoalReport& report, Time now);
   bool breaks_down_for_good(Time now);
@@ -77,7 +86,7 @@ class PursuedGoal {
   int stops_ahead_ = 0;
   std::array<std::optional<Time>, 2> broke_down_;  // the last two times, the newest first
   int sent_ = 0;
-  bool once_ = false, begun_ = false, accepted_ = false, stopped_ = false;
+  bool once_ = false, begun_ = false, accepted_ = false, stopped_ = false, has_moved_ = false;
   bool arm_is_stopped_ = false;
 };
 

@@ -110,6 +110,62 @@ TEST_F(PausedGoalTest, AGoalThatWasLeftIsNotGoneOnWith) {
   EXPECT_FALSE(goals_.outgoing(at(1)));
 }
 
+TEST_F(PausedGoalTest, IsFreeForAnotherGoalOnceTheArmRestsFromOneThatWasLeft) {
+  EXPECT_TRUE(goals_.is_free()) << "none was set yet";
+  goals_.set(goal_);
+  EXPECT_FALSE(goals_.left());
+  sent();
+  hear(Report::executing);
+  pause();
+  EXPECT_FALSE(goals_.left()) << "paused, it is pursued";
+  goals_.resume();
+  sent();
+  hear(Report::executing);
+  goals_.leave();
+  EXPECT_TRUE(goals_.left());
+  EXPECT_FALSE(goals_.is_free()) << "it slows down";
+  sent();
+  hear(Report::done);
+  EXPECT_TRUE(goals_.is_free());
+}
+
+TEST_F(PausedGoalTest, AnArmThatBreaksDownAsItLeavesAGoalIsNotFree) {
+  goals_.set(goal_);
+  sent();
+  hear(Report::executing);
+  goals_.leave();
+  sent();
+  goals_.hear({.goal_id = id_, .state = Report::failed, .stage = "stop", .reason = "x"}, at(1));
+  EXPECT_EQ(goals_.state(), PursuedGoal::State::failed);
+  EXPECT_FALSE(goals_.is_free());
+  goals_.leave();
+  EXPECT_TRUE(goals_.is_free()) << "somebody has seen that";
+}
+
+TEST_F(PausedGoalTest, NothingIsHeardOfAGoalThatWasLeftBehind) {
+  goals_.set(goal_);
+  sent();
+  hear(Report::done);
+  goals_.leave();
+  hear(Report::superseded);
+  EXPECT_EQ(goals_.state(), PursuedGoal::State::none);
+  EXPECT_FALSE(goals_.outgoing(at(9)));
+}
+
+TEST_F(PausedGoalTest, HasMovedTheArmOnAllOfItsWayUntilAnotherOneIsSet) {
+  goals_.set_once(goal_);
+  sent();
+  EXPECT_FALSE(goals_.has_moved()) << "it is planned";
+  hear(Report::executing);
+  EXPECT_TRUE(goals_.has_moved());
+  pause();
+  goals_.leave();
+  goals_.retrace(false);
+  EXPECT_TRUE(goals_.has_moved()) << "back along its way";
+  goals_.set(goal_);
+  EXPECT_FALSE(goals_.has_moved());
+}
+
 TEST_F(PausedGoalTest, AnyOtherGoalIsGivenAnewAndSoIsOneThatHadNotBegun) {
   goals_.set(goal_);
   sent();

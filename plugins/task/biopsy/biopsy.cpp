@@ -76,13 +76,10 @@ void Biopsy::see_registration(const RegisteredHead& head, Time now) {
 }
 
 void Biopsy::update(Time now) {
-  if (procedure_.over()) return;
-  const bool rests = goal_.state() != PursuedGoal::State::pausing;
-  if (turning_to_ != Heading::none && rests && !procedure_.paused()) {
-    const Heading heading = std::exchange(turning_to_, Heading::none);
-    return has_set_out_ ? turn_to(heading) : turn_at_once(heading, now);
-  }
-  if (!procedure_.may_act() || heading_ != Heading::none || held_) return;
+  if (!procedure_.may_act()) return;
+  const bool turns = heading_ != Heading::none && goal_.is_free();
+  if (turns) return has_set_out() ? retrace(heading_) : turn_at_once(now);
+  if (heading_ != Heading::none) return;
   switch (step()) {
     case Step::touching: touch_by_itself(now); break;
     case Step::registration: break;
@@ -92,7 +89,7 @@ void Biopsy::update(Time now) {
     case Step::entry:
     case Step::insertion: set_out(); break;
     case Step::withdrawal:
-      if (now - at_target_since_ >= seconds(parameters_.dwell)) turn_to(Heading::out);
+      if (now - at_target_since_ >= seconds(parameters_.dwell)) retrace(Heading::out);
       break;
   }
 }
@@ -108,16 +105,15 @@ void Biopsy::set_out() {
                   .stepwise = true});
 }
 
-void Biopsy::turn_to(Heading heading) {
+void Biopsy::retrace(Heading heading) {
   trouble_.clear();
   heading_ = heading;
   goal_.retrace(heading != Heading::home);
 }
 
-void Biopsy::turn_at_once(Heading heading, Time now) {
+void Biopsy::turn_at_once(Time now) {
   trouble_.clear();
-  heading_ = Heading::none;
-  if (heading == Heading::home) return end_aborted();
+  if (std::exchange(heading_, Heading::none) == Heading::home) return end_aborted();
   ask_again(now);
 }
 
@@ -129,7 +125,6 @@ void Biopsy::ask_again(Time now) {
 void Biopsy::forget_line() {
   line_.reset();
   way_stops_ = 0;
-  has_set_out_ = false;
 }
 
 void Biopsy::end_aborted() {
@@ -142,8 +137,7 @@ void Biopsy::hear(const GoalReport& report, Time now) {
   goal_.hear(report, now);
   if (led() && !was_led) touching_.begin_rest();
   if (in_hand() && goal_.state() == PursuedGoal::State::failed) return refuse(goal_.reason());
-  if (procedure_.over() || heading_ == Heading::none) return;
-  if (goal_.state() == PursuedGoal::State::moving) has_set_out_ = true;
+  if (procedure_.over() || heading_ == Heading::none || heading_ == Heading::held) return;
   if (goal_.state() == PursuedGoal::State::failed) {
     return break_down((heading_ == Heading::onward ? "" : "the way back failed: ") + goal_.reason(),
                       now);
@@ -155,7 +149,6 @@ void Biopsy::arrive(Time now) {
   const Heading came = std::exchange(heading_, Heading::none);
   const int ahead = goal_.stops_ahead();
   if (way_stops_ == 0 && came == Heading::onward) way_stops_ = ahead + 1;
-  has_set_out_ = way_stops_ > 0;
   place_ = came == Heading::onward ? way_stops_ - ahead : ahead;
   if (came == Heading::home) return end_aborted();
   if (came != Heading::out) {
@@ -164,7 +157,7 @@ void Biopsy::arrive(Time now) {
   }
   // Back to the stand-off; the entry on the way there is passed.
   const int stand_off = std::max(way_stops_ - 2, 0);
-  if (place_ > stand_off) return turn_to(Heading::out);
+  if (place_ > stand_off) return retrace(Heading::out);
   ended_as_ = Phase::withdrawn;
   procedure_.end();
 }
@@ -177,7 +170,7 @@ Biopsy::Step Biopsy::step_from(int place) const {
 }
 
 Expected<void> Biopsy::hear(const OperatorCommand& command, Time now) {
-  if (held_ && command.word != "back" && command.word != "abort") {
+  if (heading_ == Heading::held && command.word != "back" && command.word != "abort") {
     return armature::refuse("the needle has broken down on its way: back or abort leads it out");
   }
   const auto word = procedure_.hear(command);
@@ -202,51 +195,43 @@ Expected<void> Biopsy::hear(const OperatorCommand& command, Time now) {
 }
 
 Expected<void> Biopsy::go_back(Time now) {
-  if (heading() != Heading::none && heading() != Heading::onward) {
-    return armature::refuse("the needle goes back already");
+  if (heading_ > Heading::onward) return armature::refuse("the needle goes back already");
+  if (!stands_where_it_began()) return turn(Heading::back);
+  const bool touches = parameters_.touch_markers;
+  if (touches ? touching_.places().empty() : step() == Step::registration) {
+    return armature::refuse("there is no step before this one");
   }
-  const bool stands_where_it_began = heading_ == Heading::none && place_ == 0 && !held_;
-  if (stands_where_it_began && parameters_.touch_markers) {
-    if (touching_.places().empty()) return armature::refuse("there is no step before this one");
+  if (touches) {
     touch_again(now);
-    return {};
-  }
-  if (step() == Step::registration) return armature::refuse("there is no step before this one");
-  if (const auto may = goal_.may_move(); !may && !stands_where_it_began) return may;
-  procedure_.turn_back();
-  if (stands_where_it_began) {
+  } else {
+    procedure_.turn_back();
     forget_line();
     enter(Step::registration);
-    return {};
   }
-  goal_.leave();
-  held_ = false;
-  turning_to_ = Heading::back;
   return {};
 }
 
 Expected<void> Biopsy::abort() {
-  if (heading() == Heading::home) return armature::refuse("it is being aborted already");
-  const bool stands_where_it_began = place_ == 0 && heading_ == Heading::none && !held_;
-  if (const auto may = goal_.may_move(); !may && !stands_where_it_began) return may;
+  if (heading_ == Heading::home) return armature::refuse("it is being aborted already");
+  if (!stands_where_it_began()) return turn(Heading::home);
+  take_from_hand();
+  end_aborted();
+  return {};
+}
+
+Expected<void> Biopsy::turn(Heading heading) {
+  if (const auto may = goal_.may_move(); !may) return may;
   procedure_.turn_back();
-  if (stands_where_it_began) {
-    take_from_hand();
-    end_aborted();
-    return {};
-  }
   goal_.leave();
-  held_ = false;
-  turning_to_ = Heading::home;
+  heading_ = heading;
   return {};
 }
 
 void Biopsy::break_down(const std::string& why, Time now) {
   if (parameters_.auto_confirm) return refuse(why);
-  heading_ = turning_to_ = Heading::none;
   trouble_ = why;
-  held_ = has_set_out_;
-  if (!held_) ask_again(now);
+  heading_ = has_set_out() ? Heading::held : Heading::none;
+  if (heading_ == Heading::none) ask_again(now);
 }
 
 void Biopsy::refuse(const std::string& why) {
@@ -258,8 +243,8 @@ void Biopsy::refuse(const std::string& why) {
 
 Biopsy::Phase Biopsy::phase() const {
   if (procedure_.over()) return ended_as_;
-  if (held_) return Phase::held;
-  switch (heading()) {
+  switch (heading_) {
+    case Heading::held: return Phase::held;
     case Heading::onward: return Phase::moving;
     case Heading::back: return Phase::going_back;
     case Heading::out: return Phase::withdrawing;

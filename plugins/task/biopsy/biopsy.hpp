@@ -73,9 +73,9 @@ class Biopsy {
   const std::string& trouble() const { return trouble_; }
 
  private:
-  enum class Heading { none, onward, back, out, home };
-  /// Where it goes, or will as soon as the arm rests.
-  Heading heading() const { return turning_to_ != Heading::none ? turning_to_ : heading_; }
+  /// Where it goes, or will as soon as the arm rests; `held`: nowhere, it broke down on its way.
+  /// What stands behind `onward` leads back.
+  enum class Heading { none, held, onward, back, out, home };
 
   /// Every marker that is touched is a step of its own, behind the first one.
   Step step() const;
@@ -85,12 +85,16 @@ class Biopsy {
   void arrive(Time now);
   /// The step that begins at a stop of the way: 0 is its start, `way_stops_` the target.
   Step step_from(int place) const;
+  bool stands_where_it_began() const { return heading_ == Heading::none && place_ == 0; }
+  /// From where the way began, and it has not come back.
+  bool has_set_out() const { return way_stops_ > 0 || goal_.has_moved(); }
   Expected<void> go_back(Time now);
   Expected<void> abort();
   /// Along the way, once the arm rests.
-  void turn_to(Heading heading);
-  /// The same of a way that was not begun: the arm is where it would lead back to.
-  void turn_at_once(Heading heading, Time now);
+  Expected<void> turn(Heading heading);
+  void retrace(Heading heading);
+  /// Of a way that was not begun: the arm is where it would lead back to.
+  void turn_at_once(Time now);
   /// A way that has not been begun is planned anew once the approach is confirmed again.
   void ask_again(Time now);
   void forget_line();
@@ -134,16 +138,13 @@ class Biopsy {
   bool has_plan_ = false;
   std::optional<NeedleLine> line_;  // before the robot
   PursuedGoal goal_;
-  Heading heading_ = Heading::none;     // of the goal that is pursued
-  Heading turning_to_ = Heading::none;  // as soon as the arm rests
-  int way_stops_ = 0;                   // 0: its first stop has not been reached yet
-  bool has_set_out_ = false;            // from where the way began, and has not come back
-  int place_ = 0;                       // the stop where the arm rests, or rested last
+  Heading heading_ = Heading::none;
+  int way_stops_ = 0;  // 0: its first stop has not been reached yet
+  int place_ = 0;      // the stop where the arm rests, or rested last
   Time at_target_since_;
   Time waits_since_;         // for a hand
   bool takes_back_ = false;  // the arm holds, or will, before it moves by itself
   Phase ended_as_ = Phase::withdrawn;
-  bool held_ = false;
   std::string trouble_;
 };
 

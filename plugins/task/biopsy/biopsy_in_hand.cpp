@@ -8,7 +8,7 @@ namespace armature::task::biopsy {
 
 bool Biopsy::in_hand() const {
   return parameters_.touch_markers && has_plan_ && !procedure_.over() && way_stops_ == 0 &&
-         heading() == Heading::none && !held_;
+         heading_ == Heading::none;
 }
 
 bool Biopsy::led() const {

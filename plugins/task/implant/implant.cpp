@@ -78,7 +78,8 @@ void Implant::hear(const GoalReport& report, Time now) {
   goal_.hear(report, now);
   const bool there = goal_.state() == PursuedGoal::State::done;
   const bool failed = goal_.state() == PursuedGoal::State::failed;
-  if (turned_ && (there || failed)) return come_back(now);
+  const bool back = phase_ == Phase::going_back || phase_ == Phase::aborting;
+  if (back && (there || failed)) return come_back(now);
   if (phase_ == Phase::calibrating && sent_to_ == guidance_.calibration().number()) {
     if (there) guidance_.calibration().arrive(goal_.done_at());
     // Or it would go on with the poses that it has, and move once somebody rearms the arm.
@@ -86,14 +87,12 @@ void Implant::hear(const GoalReport& report, Time now) {
     if (failed) guidance_.calibration().leave_out(goal_.reason());
   }
   const bool above = phase_ == Phase::approaching, out = phase_ == Phase::withdrawing;
-  if (!set_out_ || !(above || out || at_sites())) return;
-  if (goal_.state() == PursuedGoal::State::moving) under_way_ = true;
-  if (failed) {
+  if (failed && (above || out || at_sites())) {
     const std::string why = (above ? "above site 1"
                              : out ? "withdrawal"
                                    : pass().name) +
                             ": " + goal_.reason();
-    return above && !under_way_ ? refuse_approach(why, now) : refuse(why);
+    return above && !under_way() ? refuse_approach(why, now) : refuse(why);
   }
   if (there && above) come_to_pass(0, now);
   if (there && out && homing_) return finish_round(now);
@@ -119,11 +118,11 @@ void Implant::update(Time now) {
     case Phase::drilling:
     case Phase::placing:
       if (const auto seen = guidance_.guard(now); !seen) return refuse(seen.error().text);
-      if (!set_out_) return set_out(now);
+      if (goal_.left()) return set_out(now);
       if (at_sites() && procedure_.may_act()) go_on(now);
       break;
     case Phase::withdrawing:
-      if (!set_out_) set_out(now);
+      if (goal_.left()) set_out(now);
       break;
     case Phase::changing_tool:
       // Not at once: whoever watches is told of it.
@@ -131,7 +130,7 @@ void Implant::update(Time now) {
       break;
     case Phase::going_back:
     case Phase::aborting:
-      if (!turned_ && goal_.state() != PursuedGoal::State::pausing) turn_back();
+      if (goal_.is_free() && procedure_.may_act()) turn_back();
       break;
     case Phase::drilled:
     case Phase::placed:
@@ -208,7 +207,7 @@ void Implant::plan_rounds() {
 }
 
 void Implant::enter_approach(Time now) {
-  set_out_ = under_way_ = false;
+  goal_.leave();
   phase_ = Phase::approaching;
   guidance_.begin_to_guard(now);
   procedure_.enter(rounds_[round_].approach);
@@ -223,7 +222,6 @@ void Implant::refuse_approach(const std::string& why, Time now) {
 
 void Implant::set_out(Time now) {
   if (!procedure_.may_act()) return;
-  set_out_ = true;
   trouble_.clear();
   const SiteWay& way = rounds_[round_].way;
   switch (phase_) {
@@ -246,7 +244,8 @@ void Implant::come_to_pass(std::size_t pass, Time now) {
   phase_ = placing() ? Phase::placing : Phase::drilling;
   thread_watch_.release();
   pass_ = pass;
-  set_out_ = homing_ = false;
+  goal_.leave();
+  homing_ = false;
   if (this->pass().asks) {
     const auto& passes = rounds_[round_].way.passes;
     const auto steps = std::count_if(passes.begin(), passes.begin() + static_cast<int>(pass_),
@@ -273,7 +272,7 @@ void Implant::go_on(Time now) {
 }
 
 void Implant::withdraw(Time now) {
-  set_out_ = false;
+  goal_.leave();
   phase_ = Phase::withdrawing;
   procedure_.enter(rounds_[round_].withdrawal);
   set_out(now);
@@ -287,14 +286,13 @@ void Implant::finish_round(Time now) {
   out_at_ = now;
   ++round_;
   pass_ = 0;
-  set_out_ = false;
   phase_ = Phase::changing_tool;
   procedure_.enter(rounds_[round_].approach - 1);
 }
 
 bool Implant::near_the_jaw() const {
   switch (phase_) {
-    case Phase::approaching: return under_way_;
+    case Phase::approaching: return under_way();
     case Phase::drilling:
     case Phase::placing:
     case Phase::withdrawing:
@@ -309,7 +307,6 @@ void Implant::refuse(const std::string& why) {
   if (phase_ == Phase::refused || phase_ == Phase::held) return;
   const bool held = near_the_jaw() && !procedure_.auto_confirm();
   phase_ = held ? Phase::held : Phase::refused;
-  turned_ = false;
   trouble_ = why;
   if (held) {
     procedure_.turn_back();

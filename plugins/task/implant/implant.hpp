@@ -120,6 +120,8 @@ class Implant {
   bool at_sites() const { return phase_ == Phase::drilling || phase_ == Phase::placing; }
   /// The jaw must be seen, and rest.
   bool watches_the_jaw() const { return phase_ == Phase::approaching || at_sites(); }
+  /// The approach has moved the arm.
+  bool under_way() const { return !goal_.left() && goal_.has_moved(); }
   /// On its way there, or not out yet.
   bool near_the_jaw() const;
   const Pass& pass() const { return rounds_[round_].way.passes[pass_]; }
@@ -145,9 +147,6 @@ class Implant {
   std::optional<ToolPose> came_from_;  // where the approach began
   std::size_t round_ = 0, pass_ = 0;   // of rounds_, and of its way
   Time out_at_;                        // since then the drill is out, and may be changed
-  bool set_out_ = false;               // for the approach, or for the pass
-  bool under_way_ = false;             // the approach has been seen to move the arm
-  bool turned_ = false;                // going back or aborting: the way back is under way
   bool homing_ = false;                // led out: on the way to where the approach began
   bool led_out_anyhow_ = false;        // aborted while it was held, whatever the handpiece does
   std::string trouble_;

@@ -27,27 +27,27 @@ Expected<void> Implant::go_back(Time now) {
     case Phase::placing: break;
     default: return armature::refuse("before the approach there is no step to go back to");
   }
-  const bool again = phase_ == Phase::approaching || (pass_ == 0 && !set_out_);
-  const bool placed = placing() && (set_out_ ? !pass().asks && !pass().turns : pass().asks);
+  const bool in_site = !goal_.left();
+  const bool again = phase_ == Phase::approaching || (pass_ == 0 && !in_site);
+  const bool placed = placing() && (in_site ? !pass().asks && !pass().turns : pass().asks);
   if (!again && placed) return armature::refuse("the implant before stays where it was placed");
   if (const auto may = goal_.may_move(); !may && !again) return may;
   procedure_.turn_back();
   goal_.leave();
   if (again) {
     register_again("");
-  } else if (!set_out_) {
+  } else if (!in_site) {
     --pass_;
     come_to_pass(first_of_step(), now);  // into the site before
   } else {
     phase_ = Phase::going_back;
-    turned_ = false;
   }
   return {};
 }
 
 void Implant::see_jaw_moved(const std::string& why) {
   const bool nothing_set_out =
-      phase_ == Phase::locating || (phase_ == Phase::approaching && !under_way_);
+      phase_ == Phase::locating || (phase_ == Phase::approaching && !under_way());
   if (procedure_.auto_confirm() || !nothing_set_out) return refuse(why);
   goal_.leave();
   register_again(why);
@@ -66,12 +66,16 @@ Expected<void> Implant::abort() {
   if (const auto may = goal_.may_move(); !may && near_the_jaw()) return may;
   procedure_.turn_back();
   if (near_the_jaw()) {
-    if (!turned_ || phase_ != Phase::going_back) goal_.leave();
-    set_out_ = true;
+    const bool goes_out =
+        phase_ == Phase::going_back && goal_.state() != PursuedGoal::State::pausing;
     trouble_.clear();
     led_out_anyhow_ = phase_ == Phase::held;
     phase_ = Phase::aborting;
-    turned_ = false;
+    if (goes_out) {
+      turn_back();
+    } else {
+      goal_.leave();
+    }
     return {};
   }
   goal_.leave();
@@ -81,8 +85,6 @@ Expected<void> Implant::abort() {
 }
 
 void Implant::turn_back() {
-  if (procedure_.paused() || !base_T_flange_) return;
-  turned_ = true;
   const bool approached = procedure_.step() > rounds_[round_].approach;
   homing_ = homing_ || !approached;
   if (!approached) return goal_.retrace(false);
@@ -115,14 +117,12 @@ void Implant::come_back(Time now) {
   }
   if (thread()) {
     thread_watch_.release();
-    turned_ = false;
-    return;
+    return goal_.leave();
   }
   if (phase_ == Phase::aborting && !homing_) {
     homing_ = true;
     return lead_out();
   }
-  turned_ = false;
   if (phase_ == Phase::aborting) {
     phase_ = Phase::aborted;
     return procedure_.end(Procedure::StepState::broken_off);

@@ -28,14 +28,12 @@ Tour::Tour(const Parameters& parameters, const std::vector<ToolPose>& waypoints)
 
 void Tour::see(const PoseResidual& off) {
   off_ = off;
-  if (phase_ != Phase::waiting) return;
-  phase_ = Phase::moving;
-  come_to(0);
+  if (phase_ == Phase::waiting) come_to(0);
 }
 
 void Tour::come_to(std::size_t number) {
   number_ = number;
-  set_out_ = false;
+  goal_.leave();
   phase_ = Phase::moving;
   procedure_.enter(number + 1);
 }
@@ -43,33 +41,32 @@ void Tour::come_to(std::size_t number) {
 void Tour::hear(const GoalReport& report, Time now) {
   goal_.hear(report, now);
   using State = PursuedGoal::State;
-  if (goal_.state() == State::moving) has_moved_ = true;
-  if (phase_ == Phase::aborting && !aborts_) {
-    if (goal_.state() != State::done && goal_.state() != State::failed) return;
-    if (goal_.state() == State::failed) trouble_ = "the way back failed: " + goal_.reason();
-    phase_ = Phase::aborted;
-    return procedure_.end(Procedure::StepState::broken_off);
+  has_moved_ = has_moved_ || goal_.has_moved();
+  if (goal_.left() || procedure_.over()) return;
+  const bool there = goal_.state() == State::done, failed = goal_.state() == State::failed;
+  if (phase_ == Phase::aborting) {
+    if (failed) return end(Phase::aborted, "the way back failed: " + goal_.reason());
+    if (there) end(Phase::aborted, "");
+    return;
   }
-  if (!set_out_ || (phase_ != Phase::moving && phase_ != Phase::resting)) return;
-  if (goal_.state() == State::failed) {
-    phase_ = Phase::refused;
-    trouble_ = fmt::format("waypoint {}: {}", number_ + 1, goal_.reason());
-    return procedure_.end(Procedure::StepState::broken_off);
+  if (failed) {
+    return end(Phase::refused, fmt::format("waypoint {}: {}", number_ + 1, goal_.reason()));
   }
-  phase_ = goal_.state() == State::done ? Phase::resting : Phase::moving;
+  phase_ = there ? Phase::resting : Phase::moving;
+}
+
+void Tour::end(Phase how, const std::string& trouble) {
+  phase_ = how;
+  trouble_ = trouble;
+  procedure_.end(Procedure::StepState::broken_off);
 }
 
 std::optional<MotionGoal> Tour::outgoing_goal(Time now) {
-  const bool rests = goal_.state() != PursuedGoal::State::pausing;
-  if (aborts_ && rests) {
-    aborts_ = false;
-    goal_.retrace(false);
-  }
   if (procedure_.may_act()) {
+    if (phase_ == Phase::aborting && goal_.is_free()) goal_.retrace(false);
     if (phase_ == Phase::resting && now - goal_.done_at() >= seconds(parameters_.rest)) leave(now);
-    const bool sets_out = phase_ == Phase::moving && procedure_.may_act() && !set_out_;
+    const bool sets_out = phase_ == Phase::moving && procedure_.may_act() && goal_.left();
     if (sets_out) goal_.set({.pose = waypoint()});
-    set_out_ = set_out_ || sets_out;
   }
   return goal_.outgoing(now);
 }
@@ -85,7 +82,6 @@ Expected<void> Tour::go_back() {
     return refuse("there is no waypoint before this one");
   if (const auto may = goal_.may_move(); !may) return may;
   procedure_.turn_back();
-  goal_.leave();
   come_to(number_ - 1);
   return {};
 }
@@ -95,13 +91,8 @@ Expected<void> Tour::abort() {
   if (const auto may = goal_.may_move(); !may && has_moved_) return may;
   procedure_.turn_back();
   goal_.leave();
-  if (!has_moved_) {
-    phase_ = Phase::aborted;
-    procedure_.end(Procedure::StepState::broken_off);
-    return {};
-  }
   phase_ = Phase::aborting;
-  aborts_ = true;
+  if (!has_moved_) end(Phase::aborted, "");
   return {};
 }
 

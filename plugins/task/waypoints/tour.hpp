@@ -42,6 +42,7 @@ class Tour {
 
  private:
   void leave(Time now);
+  void end(Phase how, const std::string& trouble);
   /// To the waypoint before, or for good to where the arm came from.
   Expected<void> go_back();
   Expected<void> abort();
@@ -51,9 +52,7 @@ class Tour {
   std::vector<ToolPose> waypoints_;
   Procedure procedure_;
   PursuedGoal goal_;
-  bool set_out_ = false;    // to the waypoint
   bool has_moved_ = false;  // the arm, on any way
-  bool aborts_ = false;     // as soon as the arm rests
   Phase phase_ = Phase::waiting;
   std::size_t number_ = 0;
   int round_ = 0;

@@ -134,6 +134,33 @@ TEST_F(OperatedTourTest, AbortedItGoesBackAlongTheWayThatItCame) {
   EXPECT_TRUE(follow(tour_, 3).empty());
 }
 
+TEST_F(OperatedTourTest, AnAbortThatIsPausedWhileTheArmSlowsDownWaitsForTheResume) {
+  follow(tour_, 1);
+  say("confirm", "waypoint 1");
+  follow(tour_, 0.3);
+  EXPECT_EQ(say("abort"), "");
+  EXPECT_EQ(say("pause"), "");
+  EXPECT_EQ(follow(tour_, 3).size(), 1U) << "the arm slows down, and nothing else";
+  EXPECT_EQ(tour_.phase(), Tour::Phase::aborting);
+  EXPECT_EQ(say("resume"), "");
+  EXPECT_EQ(follow(tour_, 3).size(), 1U);
+  EXPECT_EQ(tour_.phase(), Tour::Phase::aborted);
+}
+
+TEST_F(OperatedTourTest, AnArmThatIsStoppedWhileItSlowsDownForAnAbortIsNotLedBack) {
+  follow(tour_, 1);
+  say("confirm", "waypoint 1");
+  follow(tour_, 0.3);
+  EXPECT_EQ(say("abort"), "");
+  follow(tour_, 0.1);
+  done_at_.reset();
+  tour_.hear({.goal_id = id_, .state = GoalReport::State::failed, .stage = "stop", .reason = "x"},
+             now_);
+  EXPECT_TRUE(follow(tour_, 3).empty());
+  EXPECT_EQ(tour_.phase(), Tour::Phase::aborted);
+  EXPECT_EQ(tour_.trouble(), "the way back failed: stop: x");
+}
+
 TEST_F(OperatedTourTest, WhileTheArmIsStoppedBackAndAbortAreRefused) {
   follow(tour_, 1);
   say("confirm", "waypoint 1");

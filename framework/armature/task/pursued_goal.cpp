@@ -36,7 +36,7 @@ void PursuedGoal::replace_by(const MotionGoal& goal, bool once) {
 
 void PursuedGoal::pause() {
   resumes_ = false;
-  if (state_ != State::waiting && state_ != State::moving) return;
+  if (!on_its_way()) return;
   MotionGoal rest = goal_;
   const bool once = once_;
   if (once && begun_) {

@@ -47,6 +47,7 @@ class PursuedGoal {
   std::optional<MotionGoal> outgoing(Time now);
 
   State state() const { return state_; }
+  bool on_its_way() const { return state_ == State::waiting || state_ == State::moving; }
   /// No goal is pursued: none was set yet, or it was left and no other one set.
   bool left() const;
   /// And the arm does not slow down from it any more: it may be turned round.

@@ -11,6 +11,7 @@
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
+#include "armature/motion/goal_messages.hpp"
 #include "armature/runtime/component/ports.hpp"
 #include "armature/task/answered_words.hpp"
 #include "armature/task/heard_word.hpp"
@@ -27,6 +28,14 @@ struct TaskReport {
   /// What the operator reads: "refused: the markers lie nearly on one line".
   std::string line() const { return detail.empty() ? state : state + ": " + detail; }
 };
+
+/// Sends a goal, if there is one.
+inline void send(const std::optional<MotionGoal>& goal, Time now, Output<msg::MotionGoal>& output) {
+  if (!goal) return;
+  auto loan = output.loan();
+  write_goal(*goal, now, *loan);
+  loan.publish();
+}
 
 /// The two ports at which an operator meets a task: `operator`, what is said to it, and `state`,
 /// what it is doing: every change, and five times a second. Every state has one answer, so that

@@ -92,11 +92,7 @@ class BiopsyComponent final : public Component {
     task_.update(now);
     publish_touches(now);
     if (task_.wants_registration() && registration_.due(now)) ask(now);
-    if (const auto goal = task_.outgoing_goal(now)) {
-      auto loan = ports_.goal.loan();
-      write_goal(*goal, now, *loan);
-      loan.publish();
-    }
+    send(task_.outgoing_goal(now), now, ports_.goal);
     publish_state(now);
   }
 

@@ -278,11 +278,7 @@ TEST_F(TouchedBiopsyTest, AConfirmedApproachThatIsPausedAtOnceIsLookedAtAgain) {
 TEST_F(TouchedBiopsyTest, AWayThatCannotBePlannedGivesTheArmToTheHandAgain) {
   begin(false);
   touch_all();
-  register_head();
-  lead_away();
-  say("confirm", "approach");
-  run(0.1);
-  take_back();
+  send_approach();
   hear(GoalReport::State::failed, "links", "lead it to another start");
   run(0.1);
   EXPECT_EQ(goal_.mode, MotionMode::guided);
@@ -345,11 +341,7 @@ TEST_F(TouchedBiopsyTest, ARefusalThatComesInAPauseWaitsForItsEnd) {
 TEST_F(TouchedBiopsyTest, BackFromTheApproachGivesTheArmToTheHand) {
   begin(false);
   touch_all();
-  register_head();
-  lead_away();
-  say("confirm", "approach");
-  run(0.1);
-  take_back();
+  send_approach();
   hear(GoalReport::State::executing);
   EXPECT_EQ(say("back"), "");
   run(0.1);

@@ -268,10 +268,6 @@ void Implant::go_on(Time now) {
   const auto missed = round.bottoms.missed(pass().sites, parameters_.max_bottom_error);
   if (missed) return refuse(*missed);
   if (pass_ + 1 < round.way.passes.size()) return come_to_pass(pass_ + 1, now);
-  withdraw(now);
-}
-
-void Implant::withdraw(Time now) {
   goal_.leave();
   phase_ = Phase::withdrawing;
   procedure_.enter(rounds_[round_].withdrawal);
@@ -313,9 +309,7 @@ void Implant::refuse(const std::string& why) {
   } else {
     procedure_.end(Procedure::StepState::broken_off);
   }
-  const bool on_its_way =
-      goal_.state() == PursuedGoal::State::waiting || goal_.state() == PursuedGoal::State::moving;
-  if (on_its_way) goal_.set({.mode = MotionMode::hold, .pose = {}});
+  if (goal_.on_its_way()) goal_.set({.mode = MotionMode::hold, .pose = {}});
 }
 
 const char* to_string(Implant::Phase phase) {

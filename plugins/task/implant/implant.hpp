@@ -114,7 +114,6 @@ class Implant {
   /// Of one that has moved nothing: where there is an operator, he is asked again.
   void refuse_approach(const std::string& why, Time now);
   void go_on(Time now);
-  void withdraw(Time now);
   void finish_round(Time now);
   bool placing() const { return round_ == 1; }
   bool at_sites() const { return phase_ == Phase::drilling || phase_ == Phase::placing; }

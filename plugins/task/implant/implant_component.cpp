@@ -96,11 +96,7 @@ class ImplantComponent final : public Component {
     read(now);
     task_.update(now);
     if (ports_.markers.latest() && task_.wants_registration() && registration_.due(now)) ask(now);
-    if (const auto goal = task_.outgoing_goal(now)) {
-      auto loan = ports_.goal.loan();
-      write_goal(*goal, now, *loan);
-      loan.publish();
-    }
+    send(task_.outgoing_goal(now), now, ports_.goal);
     for (const std::string& line : task_.take_news()) log(line);
     publish_estimate(now);
     publish_thread(now);

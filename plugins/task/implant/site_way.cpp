@@ -15,13 +15,7 @@ namespace armature::task::implant {
 namespace {
 
 using Eigen::Isometry3d;
-
 using Eigen::Translation3d;
-
-/// Of the robot file's tool.
-struct SitePoses {
-  ToolPose above, bottom;
-};
 
 /// The file's tool, when the tool of `chain` is at a place of the image.
 ToolPose pose_at(const GuidedChain& chain, const Isometry3d& flange_T_file_tool,
@@ -30,32 +24,32 @@ ToolPose pose_at(const GuidedChain& chain, const Isometry3d& flange_T_file_tool,
   return {pose.translation(), Eigen::Quaterniond{pose.linear()}.normalized()};
 }
 
-std::vector<Pass> in_one_motion(const std::vector<SitePoses>& sites) {
-  Pass pass{.goal = {}, .asks = true, .sites = sites.size()};
+std::vector<Pass> in_one_motion(const SiteWay& way) {
+  const std::size_t sites = way.above.size();
+  Pass pass{.goal = {}, .asks = true, .sites = sites};
   auto& through = pass.goal.through;
-  for (const SitePoses& site : sites) {
-    if (!through.empty()) through.push_back(site.above);
-    through.push_back(site.bottom);
-    through.push_back(site.above);
+  for (std::size_t i = 0; i < sites; ++i) {
+    if (i > 0) through.push_back(way.above[i]);
+    through.insert(through.end(), {way.bottom[i], way.above[i]});
   }
   pass.goal.pose = through.back();
   through.pop_back();
-  pass.name = sites.size() == 1 ? "site 1" : fmt::format("sites 1 to {}", sites.size());
+  pass.name = sites == 1 ? "site 1" : fmt::format("sites 1 to {}", sites);
   return {pass};
 }
 
-std::vector<Pass> site_by_site(const std::vector<SitePoses>& sites) {
+std::vector<Pass> site_by_site(const SiteWay& way) {
   std::vector<Pass> passes;
-  for (std::size_t i = 0; i < sites.size(); ++i) {
-    Pass in{.goal = {.pose = sites[i].bottom},
+  for (std::size_t i = 0; i < way.above.size(); ++i) {
+    Pass in{.goal = {.pose = way.bottom[i]},
             .asks = true,
             .ends_at_bottom = true,
             .site = i,
             .sites = i + 1,
             .name = fmt::format("site {}", i + 1)};
-    if (i > 0) in.goal.through = {sites[i].above};
+    if (i > 0) in.goal.through = {way.above[i]};
     Pass out{
-        .goal = {.pose = sites[i].above}, .site = i, .sites = i + 1, .name = "out of " + in.name};
+        .goal = {.pose = way.above[i]}, .site = i, .sites = i + 1, .name = "out of " + in.name};
     passes.push_back(std::move(in));
     passes.push_back(std::move(out));
   }
@@ -129,18 +123,13 @@ std::optional<std::string> defect(const std::vector<PlannedImplant>& implants, s
 SiteWay drilling_way(const GuidedChain& chain, const Isometry3d& flange_T_file_tool,
                      const std::vector<Isometry3d>& image_T_sites, const Parameters& parameters) {
   const Translation3d up{0, 0, -parameters.stand_off};
-  std::vector<SitePoses> sites;
-  for (const Isometry3d& site : image_T_sites) {
-    sites.push_back(
-        {pose_at(chain, flange_T_file_tool, site * up), pose_at(chain, flange_T_file_tool, site)});
-  }
   SiteWay way;
-  for (const SitePoses& site : sites) {
-    way.above.push_back(site.above);
-    way.bottom.push_back(site.bottom);
+  for (const Isometry3d& site : image_T_sites) {
+    way.above.push_back(pose_at(chain, flange_T_file_tool, site * up));
+    way.bottom.push_back(pose_at(chain, flange_T_file_tool, site));
   }
   const bool stops = parameters.stop_at_sites || !parameters.auto_confirm;
-  way.passes = stops ? site_by_site(sites) : in_one_motion(sites);
+  way.passes = stops ? site_by_site(way) : in_one_motion(way);
   return way;
 }
 

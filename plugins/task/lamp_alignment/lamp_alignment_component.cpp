@@ -75,7 +75,7 @@ class LampAlignmentComponent : public Component {
     for (const std::string& line : task_ports_.hear(now, task_.procedure(), obey)) log(line);
     read(now);
     task_.step(now);
-    send_goal(now);
+    send(task_.outgoing_goal(now), now, ports_.goal);
     send_light_and_capture(now);
     publish_state(now);
   }
@@ -111,14 +111,6 @@ class LampAlignmentComponent : public Component {
                  .normal_rate = face->normal_rate,
                  .measurements = face->measurements});
     }
-  }
-
-  void send_goal(Time now) {
-    const auto goal = task_.outgoing_goal(now);
-    if (!goal) return;
-    auto loan = ports_.goal.loan();
-    write_goal(*goal, now, *loan);
-    loan.publish();
   }
 
   void send_light_and_capture(Time now) {

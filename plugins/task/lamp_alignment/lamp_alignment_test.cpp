@@ -288,15 +288,7 @@ TEST_F(LampAlignmentTest, IsUnreachableWhenEverySearchPoseFailsAndTriesOneEachSe
 TEST_F(LampAlignmentTest, AStopOnTheWayToTheFaceIsFollowedByNothingUntilThePatientMoves) {
   ASSERT_TRUE(run_until(Phase::aligning, 10));
   tick();
-  stop();
-  run(1);
-  EXPECT_EQ(task_.phase(), Phase::unreachable);
-  EXPECT_EQ(task_.trouble(), "stop: stopped until it is rearmed");
-  rearm();
-  const std::size_t goals = goals_.size();
-  run(20);
-  EXPECT_EQ(goals_.size(), goals) << "nothing moves because of the rearm";
-  lamp_.orientation = Direction{Eigen::Vector3d::UnitX()};
+  expect_nothing_to_move_because_of_a_rearm(Phase::unreachable);
   mouth_.y() += 0.02;
   EXPECT_TRUE(run_until(Phase::holding, 10));
 }
@@ -305,15 +297,7 @@ TEST_F(LampAlignmentTest, AStopInTheSearchEndsItUntilAFaceIsSeen) {
   present_ = false;
   ASSERT_TRUE(run_until(Phase::searching, 1));
   run(0.5);
-  stop();
-  run(5);
-  EXPECT_EQ(task_.phase(), Phase::no_view);
-  EXPECT_EQ(task_.trouble(), "stop: stopped until it is rearmed");
-  rearm();
-  const std::size_t goals = goals_.size();
-  run(20);
-  EXPECT_EQ(goals_.size(), goals) << "nothing moves because of the rearm";
-  lamp_.orientation = Direction{Eigen::Vector3d::UnitX()};
+  expect_nothing_to_move_because_of_a_rearm(Phase::no_view);
   present_ = true;
   EXPECT_TRUE(run_until(Phase::holding, 10));
 }

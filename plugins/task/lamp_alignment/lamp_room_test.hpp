@@ -80,6 +80,17 @@ class LampAlignmentTest : public testing::Test {
     goal_.reset();
   }
   void rearm() { stopped_ = false; }
+  void expect_nothing_to_move_because_of_a_rearm(Phase phase) {
+    stop();
+    run(5);
+    EXPECT_EQ(task_.phase(), phase);
+    EXPECT_EQ(task_.trouble(), "stop: stopped until it is rearmed");
+    rearm();
+    const std::size_t goals = goals_.size();
+    run(20);
+    EXPECT_EQ(goals_.size(), goals);
+    lamp_.orientation = Direction{Eigen::Vector3d::UnitX()};
+  }
 
   void take_picture() {
     const Eigen::Vector3d looks_along = std::get<Direction>(lamp_.orientation).unit;

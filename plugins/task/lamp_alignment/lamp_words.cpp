@@ -53,9 +53,7 @@ Expected<void> LampAlignment::abort() {
 
 void LampAlignment::end_abort() {
   if (goals_.state() == GoalState::failed) trouble_ = "the way back failed: " + goals_.reason();
-  const bool under_way =
-      goals_.state() == GoalState::waiting || goals_.state() == GoalState::moving;
-  if (under_way) return;
+  if (goals_.on_its_way()) return;
   phase_ = Phase::aborted;
   procedure_.end(Procedure::StepState::broken_off);
 }

@@ -51,8 +51,8 @@ class TeleoperationComponent final : public Component {
     }
     task_.see(view(), now);
     show_health();
-    send(task_.outgoing_leader_goal(now), ports_.leader_goal, now);
-    send(task_.outgoing_follower_goal(), ports_.follower_goal, now);
+    send(task_.outgoing_leader_goal(now), now, ports_.leader_goal);
+    send(task_.outgoing_follower_goal(), now, ports_.follower_goal);
     publish_state(now);
   }
 
@@ -102,14 +102,6 @@ class TeleoperationComponent final : public Component {
     } else {
       degraded(wrong);
     }
-  }
-
-  static void send(const std::optional<MotionGoal>& goal, Output<msg::MotionGoal>& output,
-                   Time now) {
-    if (!goal) return;
-    auto loan = output.loan();
-    write_goal(*goal, now, *loan);
-    loan.publish();
   }
 
   void publish_state(Time now) {

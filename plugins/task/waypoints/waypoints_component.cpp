@@ -77,11 +77,7 @@ class WaypointsComponent final : public Component {
       log(line);
     }
     see_arm();
-    if (const auto goal = tour_.outgoing_goal(now)) {
-      auto loan = ports_.goal.loan();
-      write_goal(*goal, now, *loan);
-      loan.publish();
-    }
+    send(tour_.outgoing_goal(now), now, ports_.goal);
     publish_state(now);
   }
 

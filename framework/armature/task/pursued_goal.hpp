@@ -13,12 +13,12 @@
 namespace armature ARMATURE_EXPORT {
 
 /// The one goal that a task has the arm on its way to. Goals that were refused because the motion
-/// was not ready, and goals that nobody answered, are given again. A goal that breaks down on its
-/// way, since the arm does not follow, is given again, too, but not three times within 5 s, nor to
-/// an arm that is not ready within 5 s: it has failed then, since an arm whose power comes back
-/// must not move because of what was wanted before. A goal that was stopped until a rearm has
-/// failed: nothing moves because of the rearm. One that lets a hand move the arm moves nothing by
-/// itself, and is given again.
+/// was not ready, and goals that nobody answered, are given again, for as long as the task asks for
+/// the `outgoing` one. A goal that breaks down on its way, since the arm does not follow, is given
+/// again, too, but not three times within 5 s, nor to an arm that is not ready within 5 s: it has
+/// failed then, since an arm whose power comes back must not move because of what was wanted
+/// before. A goal that was stopped until a rearm has failed: nothing moves because of the rearm.
+/// One that lets a hand move the arm moves nothing by itself, and is given again.
 class PursuedGoal {
  public:
   enum class State { none, waiting, moving, pausing, paused, done, failed };

@@ -129,6 +129,13 @@ void LampAlignment::step(Time now) {
   }
 }
 
+std::optional<MotionGoal> LampAlignment::outgoing_goal(Time now) {
+  const bool to_a_face =
+      phase_ == Phase::aligning || phase_ == Phase::following || phase_ == Phase::unreachable;
+  const bool sets_out = goals_.state() == GoalState::waiting;
+  return to_a_face && sets_out && !is_fresh(now) ? std::nullopt : goals_.outgoing(now);
+}
+
 bool LampAlignment::may_align() {
   if (step() != Step::alignment) procedure_.enter(static_cast<std::size_t>(Step::alignment));
   return procedure_.may_act();
@@ -210,6 +217,9 @@ void LampAlignment::come_to_rest(Time now) {
     return;
   }
   if (goals_.state() != GoalState::done) {
+    const bool waits = goals_.state() == GoalState::waiting;
+    if (waits && face_.lost(goal_set_at_)) return search_for_lost_face(now);
+    trouble_ = waits ? face_.disbelief(goal_set_at_) : "";
     if (!is_fresh(now)) return;
     // After the first approach the arm is near, and goals for where he was would trail him.
     if (phase_ == Phase::following && may_go_along()) return go_along(now);

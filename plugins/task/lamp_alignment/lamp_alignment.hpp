@@ -45,7 +45,8 @@ class LampAlignment {
   Expected<void> hear(const OperatorCommand& command, Time now);
   void step(Time now);
 
-  std::optional<MotionGoal> outgoing_goal(Time now) { return goals_.outgoing(now); }
+  /// None to a face that is seen no more, however late the motion would take it.
+  std::optional<MotionGoal> outgoing_goal(Time now);
   std::optional<double> take_light_level() { return std::exchange(new_level_, std::nullopt); }
   bool capture() const { return capture_; }
 

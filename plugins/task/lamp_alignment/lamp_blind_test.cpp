@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lamp that is blind stays where it is and says why: 1. no pictures come, 2. those that come
 // cannot be used, 3. what it has seen is old.
+#include <algorithm>
+
 #include "lamp_room_test.hpp"
 
 namespace armature::task::lamp_alignment {
@@ -142,6 +144,72 @@ TEST_F(LampThatWasPausedTest, AWayToAFaceThatIsLostMeanwhileIsNotGoneToItsEnd) {
   EXPECT_EQ(say("back"), "");
   has_cameras_ = true;
   EXPECT_TRUE(run_until(Phase::holding, 15));
+}
+
+class LampWithALateMotionTest : public LampAlignmentTest {
+ protected:
+  /// A face is seen in the first view, and the lamp has been sent to it for a second.
+  void send_to_the_face() {
+    ASSERT_TRUE(run_until(Phase::aligning, 10));
+    run(1);
+    EXPECT_EQ(task_.phase(), Phase::aligning);
+    EXPECT_TRUE(goals_.back().focus);
+  }
+  void look_at_the_first_view() {
+    ASSERT_TRUE(run_until(Phase::searching, 1));
+    while (!task_.capture()) tick();
+  }
+  bool is_sent_to_a_face_in(double duration_s) {
+    const auto before = static_cast<std::ptrdiff_t>(goals_.size());
+    run(duration_s);
+    return std::any_of(goals_.begin() + before, goals_.end(),
+                       [](const MotionGoal& goal) { return goal.focus.has_value(); });
+  }
+};
+
+TEST_F(LampWithALateMotionTest, WhoAnswersWhenTheCamerasHaveFailedIsSentToNoFace) {
+  look_at_the_first_view();
+  answers_ = false;
+  send_to_the_face();
+  EXPECT_TRUE(is_sent_to_a_face_in(1.5)) << "nobody has answered";
+  has_cameras_ = false;
+  run(3);
+  EXPECT_FALSE(is_sent_to_a_face_in(600));
+  EXPECT_EQ(task_.trouble(), "no picture has come for 2 s");
+  answers_ = true;
+  EXPECT_FALSE(is_sent_to_a_face_in(10));
+  has_cameras_ = true;
+  EXPECT_TRUE(run_until(Phase::holding, 15));
+}
+
+TEST_F(LampWithALateMotionTest, WhoAnswersWhenThePatientHasGoneHelpsToSearch) {
+  look_at_the_first_view();
+  answers_ = false;
+  send_to_the_face();
+  present_ = false;
+  no_face_ = "no face in the picture";
+  run(5);
+  EXPECT_EQ(task_.phase(), Phase::searching);
+  EXPECT_FALSE(is_sent_to_a_face_in(600));
+  answers_ = true;
+  EXPECT_FALSE(is_sent_to_a_face_in(60));
+  present_ = true;
+  EXPECT_TRUE(run_until(Phase::holding, 30));
+}
+
+TEST_F(LampWithALateMotionTest, WhoIsReadyWhenTheFaceIsNotBelievedIsSentToNoFace) {
+  look_at_the_first_view();
+  is_ready_ = false;
+  send_to_the_face();
+  believed_ = false;
+  run(3);
+  EXPECT_EQ(task_.trouble(), "a face is seen but not believed: nobody tells where it is");
+  is_ready_ = true;
+  EXPECT_FALSE(is_sent_to_a_face_in(60));
+  EXPECT_EQ(task_.phase(), Phase::aligning);
+  believed_ = true;
+  EXPECT_TRUE(run_until(Phase::holding, 15));
+  EXPECT_EQ(task_.trouble(), "");
 }
 
 TEST_F(LampAlignmentTest, OutOfReachOfAFaceItTriesNoOtherPositionThatIsOld) {

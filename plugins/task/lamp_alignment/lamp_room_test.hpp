@@ -44,6 +44,7 @@ class LampAlignmentTest : public testing::Test {
 
   void receive(const MotionGoal& goal) {
     goals_.push_back(goal);
+    if (!answers_) return;
     if (stopped_) return drop(goal);
     if (!is_ready_) {
       task_.hear({.goal_id = goal.id,
@@ -123,7 +124,7 @@ class LampAlignmentTest : public testing::Test {
   ToolPose lamp_{.position = {0.6, 0, 0.5}, .orientation = Direction{Eigen::Vector3d::UnitY()}};
   std::vector<MotionGoal> goals_;
   bool has_cameras_ = true, present_ = true, believed_ = true, predicts_ = false, flickers_ = false,
-       stopped_ = false, is_ready_ = true;
+       stopped_ = false, is_ready_ = true, answers_ = true;
   std::string unusable_;  // why no picture can be used
   std::string no_face_;   // why none is in a picture
   int measurements_ = 0, pictures_ = 0;

@@ -64,6 +64,7 @@ class Surgeon final : public Component {
   void step(Time now) override {
     if (!console_told_) tell_console(now);
     if (ports_.path.fresh()) take_path(*ports_.path.latest());
+    if (is_told("waiting") || is_told("aligning")) taken_at_.reset();
     if (!taken_at_) take_hold(now);
     if (!taken_at_) return;
     const double t = to_seconds(now - *taken_at_);
@@ -85,10 +86,14 @@ class Surgeon final : public Component {
   bool stopped() const override { return !taken_at_ || silent_ || pace_ == 0; }
 
  private:
+  bool is_told(std::string_view state) const {
+    return ports_.task_state.latest() && ports_.task_state.latest()->state_() == state;
+  }
+
   /// Nobody goes on moving a leader while the console is held, tells trouble, or stops.
   void pause(Time now) {
     const msg::TaskState* task = ports_.task_state.latest();
-    const bool held = task && (task->state_() == "held" || !task->detail_().empty());
+    const bool held = is_told("held") || (task && !task->detail_().empty());
     const double passed_s = to_seconds(now - moved_at_);
     const double change = passed_s / kComesToRestIn_s;
     pace_ = std::clamp(held || stopping_ ? pace_ - change : pace_ + change, 0.0, 1.0);
@@ -134,13 +139,14 @@ class Surgeon final : public Component {
   }
 
   void take_hold(Time now) {
-    if (!ports_.task_state.latest() || ports_.task_state.latest()->state_() != "aligned") return;
-    if (!ports_.measured_js.latest()) return;
+    if (!is_told("aligned") || !ports_.measured_js.latest()) return;
     const auto q = joints_of(robot_, *ports_.measured_js.latest());
     if (!q) return degraded("measured_js: " + q.error().text);
     q_ = *q;
     start_ = forward_kinematics(robot_, q_);
     taken_at_ = moved_at_ = now;
+    pace_ = 1;
+    paused_s_ = 0;
   }
 
   /// A hand that the leader cannot follow stays where the leader is.

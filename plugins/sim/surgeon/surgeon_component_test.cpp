@@ -93,6 +93,26 @@ TEST_F(SurgeonTest, TakesTheLeaderWhenItIsAlignedAndNotBefore) {
   EXPECT_TRUE(bench_->take<msg::Bool>("clutch").back().data_());
 }
 
+TEST_F(SurgeonTest, LetsGoOfALeaderThatIsToAlignAgainAndTakesItWhereItIsThen) {
+  make("tremor_mm: 0");
+  align();
+  steps(2000);
+  for (const char* phase : {"waiting", "aligning"}) {
+    tell(phase);
+    bench_->take<msg::JointState>("hand_js");
+    bench_->take<msg::Bool>("clutch");
+    steps(50);
+    EXPECT_TRUE(bench_->take<msg::JointState>("hand_js").empty());
+    EXPECT_TRUE(bench_->take<msg::Bool>("clutch").empty());
+  }
+  align();
+  steps(1);
+  const auto hand = bench_->take<msg::JointState>("hand_js");
+  ASSERT_EQ(hand.size(), 1u);
+  EXPECT_LT((leader_.to_independent(hand[0].position_()).value() - q_).norm(), 1e-12);
+  EXPECT_FALSE(bench_->take<msg::Bool>("clutch").back().data_());
+}
+
 TEST_F(SurgeonTest, TheLeadersJointsAreThoseOfTheHandAndTheTruthHasNoTremor) {
   make("tremor_mm: 0.1");
   align();

@@ -31,16 +31,7 @@ class BodyInput {
   Sighting as(std::size_t i, const std::string& expected) const {
     const msg::TrackedBody& body = bodies_[i];
     Sighting sighting{.stamp = stamp_of(body.header_().stamp_()), .tracker_T_body = {}};
-    if (!body.body_().empty() && body.body_() != expected) {
-      sighting.reason =
-          fmt::format("its topic tells of the body '{}', not of '{}'", body.body_(), expected);
-      return sighting;
-    }
-    if (!body.valid_()) {
-      sighting.reason = body.reason_();
-      return sighting;
-    }
-    if (const auto off = defect(body)) {
+    if (const auto off = defect(body, expected)) {
       sighting.reason = *off;
     } else if (const auto pose = pose_of(body.pose_(), "its")) {
       sighting.tracker_T_body = *pose;
@@ -51,7 +42,12 @@ class BodyInput {
   }
 
  private:
-  std::optional<std::string> defect(const msg::TrackedBody& body) const {
+  std::optional<std::string> defect(const msg::TrackedBody& body,
+                                    const std::string& expected) const {
+    if (!body.body_().empty() && body.body_() != expected) {
+      return fmt::format("its topic tells of the body '{}', not of '{}'", body.body_(), expected);
+    }
+    if (!body.valid_()) return body.reason_();
     constexpr const char* kTrackerFrame = "tracker";
     const std::string& frame = body.header_().frame_id_();
     if (frame != kTrackerFrame) {

@@ -34,9 +34,6 @@ class LightControl {
 
   /// True when the picture tells about the present level.
   bool answers(Time stamp) const { return stamp > last_change_; }
-  bool in_band(double intensity) const {
-    return intensity >= parameters_.dark && intensity <= parameters_.bright;
-  }
   double level() const { return level_; }
   /// What the light cannot mend of a picture that answers, or "".
   std::string end(double intensity) const {

@@ -9,7 +9,7 @@ namespace {
 TEST(LightControl, LeavesABrightEnoughPictureAlone) {
   LightControl light{{}};
   EXPECT_EQ(light.update(Time{1}, 120, Time{2}), std::nullopt);
-  EXPECT_TRUE(light.in_band(120));
+  EXPECT_EQ(light.end(120), "");
 }
 
 TEST(LightControl, RaisesTheLightStepByStepUntilThePictureIsInTheBand) {

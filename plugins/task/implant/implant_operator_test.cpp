@@ -125,6 +125,29 @@ TEST_F(OperatedImplantTest, AbortedInABoreItGoesOutAndOverTheSitesToWhereItCameF
   EXPECT_EQ(say("abort"), "the procedure is over");
 }
 
+TEST_F(OperatedImplantTest, StoppedWhileItSlowsDownForAnAbortItIsHeldUntilTheNextOne) {
+  confirm("approach");
+  run_until_asked();
+  confirm("site 1");
+  stop_half_way();
+  EXPECT_EQ(say("abort"), "");
+  step();
+  EXPECT_EQ(goals_.back().mode, MotionMode::pause);
+  done_ = 0;
+  GoalReport report{
+      .goal_id = goals_.back().id, .state = Report::failed, .stage = "stop", .reason = "stopped"};
+  task_.hear(report, now());
+  const std::size_t until_then = goals_.size();
+  wait(0.5);
+  EXPECT_EQ(goals_.size(), until_then) << "nothing of that is sent to an arm that is stopped";
+  EXPECT_EQ(task_.phase(), Phase::held);
+  EXPECT_EQ(task_.trouble(), "the way back: stop: stopped");
+  report.stage.clear();
+  task_.hear(report, now());
+  EXPECT_EQ(say("abort"), "");
+  go_to(Phase::aborted);
+}
+
 TEST_F(OperatedImplantTest, AbortedOnTheApproachItGoesBackAlongIt) {
   confirm("approach");
   EXPECT_EQ(say("abort"), "");

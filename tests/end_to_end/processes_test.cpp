@@ -106,10 +106,11 @@ struct BeatsInBoxes {
 };
 BeatsInBoxes beats_in_boxes(const TemporaryFolder& folder) {
   const std::string all = folder / "all.mcap";
-  std::vector<std::string> merge{armature(), "record", "--merge", "-o", all};
+  std::vector<std::string> merge{armature(), "record", "--merge"};
   for (const auto& entry : std::filesystem::directory_iterator{folder.path()}) {
     merge.push_back(entry.path());
   }
+  merge.insert(merge.end(), {"-o", all});
   const CommandResult merged = run_command(merge);
   EXPECT_EQ(merged.exit_code, 0) << merged.err;
   BeatsInBoxes beats;
@@ -139,11 +140,9 @@ TEST(ThreeProcesses, ATroubleOfOneIsInTheBlackBoxesOfAllWhileTheRunGoesOn) {
       {"components.failing={plugin: test/beat, process: third, topics: failing, on_fault: isolate, "
        "params: {throws_in: step}}",
        "components.ear.params.listens_s=2",
-       "record={file: \"" + (folder / "box-%H.mcap").string() + "\", around_faults_s: 0.5}"});
+       "record={file: \"" + (folder / "box-%H.mcap").string() + "\", around_faults_s: 5}"});
   EXPECT_EQ(run.status(), "fault") << run.text();
-  const BeatsInBoxes beats = beats_in_boxes(folder);
-  EXPECT_GT(beats.count, 20) << run.text();
-  EXPECT_LT(beats.count, 100) << "only those around the trouble";
+  EXPECT_GT(beats_in_boxes(folder).count, 50) << "of 2 s behind the trouble";
 }
 
 TEST(TwoProcesses, OneWhoseRecordingCannotBeEndedIsAFault) {

@@ -18,7 +18,7 @@
 #include "armature/runtime/deployment_file/record_config.hpp"
 #include "armature/values/json_text.hpp"
 #include "armature/values/monotonic_now.hpp"
-#include "armature/values/told_once.hpp"
+#include "armature/web/told_once.hpp"
 #include "exit_code.hpp"
 #include "record/destination.hpp"
 #include "record/recorder.hpp"

@@ -24,8 +24,6 @@ constexpr std::chrono::seconds kHostsMeetWithin{5 * kMeetWithin};
 /// How long the main process, which looks every 20 ms, may take to answer that another one stops.
 constexpr std::chrono::seconds kAnswersWithin{kSanitized ? 5 : 1};
 
-constexpr std::chrono::milliseconds kLook{20};
-
 std::string trouble_line(Time at) { return fmt::format("trouble {}", at.ns); }
 
 bool has_loopback() {
@@ -168,7 +166,7 @@ void MainWatch::ending() {
   still_here_ = std::jthread{[this](const std::stop_token& ended) {
     while (!ended.stop_requested()) {
       children_->update();
-      std::this_thread::sleep_for(kLook);
+      std::this_thread::sleep_for(std::chrono::milliseconds{20});
     }
   }};
 }

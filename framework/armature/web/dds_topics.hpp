@@ -10,7 +10,7 @@
 #include "armature/bus/fast_dds/observer.hpp"
 #include "armature/bus/network.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
-#include "armature/values/told_once.hpp"
+#include "armature/web/told_once.hpp"
 #include "armature/web/topic_source.hpp"
 
 namespace armature ARMATURE_EXPORT {

@@ -12,8 +12,8 @@
 #include <string_view>
 #include <vector>
 
-#include "armature/values/told_once.hpp"
 #include "armature/web/playback.hpp"
+#include "armature/web/told_once.hpp"
 #include "armature/web/topic_source.hpp"
 #include "armature/web/web_server.hpp"
 

@@ -119,7 +119,8 @@ TEST_F(FastDds, AWatchedTopicThatComesBackWithLessQosOrAnotherTypeIsWatchedAgain
 
 TEST_F(FastDds, TheObserverSaysWhichWritersItsReaderDoesNotHear) {
   const auto observer = DdsObserver::make({.network = {.domain = domain_}}).value();
-  const auto transport = make_transport();
+  // A participant writes a topic as one type.
+  const auto transport = make_transport(), another = make_transport();
   const std::string name = "rt/test/to_peer";
   /// By the type of a writer, and whether it keeps samples for those who come later.
   using Heard = std::map<std::pair<std::string, bool>, bool>;
@@ -152,7 +153,7 @@ TEST_F(FastDds, TheObserverSaysWhichWritersItsReaderDoesNotHear) {
   const auto latched = transport->advertise({name, &type_, QosProfile::latched}).value();
   ASSERT_TRUE(watch());
   const auto state = transport->advertise({name, &type_, QosProfile::state}).value();
-  const auto image_writer = transport->advertise({name, &image, QosProfile::state}).value();
+  const auto image_writer = another->advertise({name, &image, QosProfile::state}).value();
   EXPECT_EQ(heard_of(3),
             (Heard{{{type, false}, false}, {{type, true}, true}, {{other, false}, false}}));
 }

@@ -52,6 +52,27 @@ class RequestHostTest : public ::testing::Test {
     EXPECT_TRUE(answers[2].valid_());
   }
 
+  /// Why `bad` is refused, with nothing but the reason, and `good` is answered after it.
+  std::string refusal_of(const Request& bad, const Request& good) {
+    const Response answer = ask(bad);
+    Response nothing;
+    nothing.header_(answer.header_());
+    nothing.request_id_(bad.request_id_());
+    nothing.reason_(answer.reason_());
+    EXPECT_TRUE(answer == nothing);
+    EXPECT_TRUE(ask(good).valid_());
+    return answer.reason_();
+  }
+  /// What the plugin throws while `throws` is a reason, and the next request is answered.
+  void expect_survives(bool& throws, const Request& request) {
+    throws = true;
+    const Response answer = ask(request);
+    throws = false;
+    EXPECT_FALSE(answer.valid_());
+    EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
+    EXPECT_TRUE(ask(request).valid_());
+  }
+
   ComponentHarness host_;
 };
 

@@ -146,11 +146,7 @@ TEST_F(PathHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadB
   const auto refusal = [&](auto change) {
     msg::PathRequest bad = request(5);
     change(bad);
-    const msg::PathResponse answer = ask(bad);
-    EXPECT_FALSE(answer.valid_());
-    EXPECT_TRUE(answer.segments_().empty());
-    EXPECT_TRUE(ask(request(6)).valid_());
-    return answer.reason_();
+    return refusal_of(bad, request(6));
   };
   EXPECT_EQ(refusal([](auto& r) { r.start_().position_().x_(NAN); }),
             "the start's position is not finite");
@@ -175,12 +171,7 @@ TEST_F(PathHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadB
 }
 
 TEST_F(PathHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered) {
-  OverTheFocus::throws = true;
-  const msg::PathResponse answer = ask(request(1));
-  OverTheFocus::throws = false;
-  EXPECT_FALSE(answer.valid_());
-  EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
-  EXPECT_TRUE(ask(request(2)).valid_());
+  expect_survives(OverTheFocus::throws, request(1));
 }
 
 }  // namespace

@@ -133,12 +133,7 @@ TEST_F(RegistrationHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNot
   const auto refusal = [&](auto change) {
     msg::RegistrationRequest bad = request(5);
     change(bad);
-    const msg::RegistrationResponse answer = ask(bad);
-    EXPECT_FALSE(answer.valid_());
-    EXPECT_EQ(answer.request_id_(), 5u);
-    EXPECT_TRUE(answer.targets_().empty() && answer.residuals_().empty());
-    EXPECT_TRUE(ask(request(6)).valid_());
-    return answer.reason_();
+    return refusal_of(bad, request(6));
   };
   EXPECT_EQ(refusal([](auto& r) { r.image_markers_()[1].x_(NAN); }),
             "planned marker 2 is not finite");
@@ -244,12 +239,7 @@ TEST_F(RegistrationHostTest, MarkersMayBeToldInAnyFrameAndTheAnswerIsInTheSame) 
 }
 
 TEST_F(RegistrationHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered) {
-  FirstMarker::throws = true;
-  const msg::RegistrationResponse answer = ask(request(1));
-  FirstMarker::throws = false;
-  EXPECT_FALSE(answer.valid_());
-  EXPECT_EQ(answer.reason_(), "the plugin threw: the matrix is singular");
-  EXPECT_TRUE(ask(request(2)).valid_());
+  expect_survives(FirstMarker::throws, request(1));
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/robot/files/robot_keys.hpp"
 
+#include <utility>
+
 namespace armature {
 namespace {
 
@@ -8,37 +10,32 @@ using config::default_value;
 using config::KeySpec;
 using Type = KeySpec::Type;
 
+/// A section that may be missing.
+KeySpec section(std::string name, std::string doc) {
+  return {.name = std::move(name), .type = Type::section, .doc = std::move(doc), .optional = true};
+}
+
 const KeySpec kUrdf{.name = "urdf",
                     .type = Type::text,
                     .doc = "The URDF file that has the joints, relative to this one.",
                     .optional = true};
-const KeySpec kFrames{.name = "frames",
-                      .type = Type::section,
-                      .doc = "Frames by name; goals are stated for 'tool'.",
-                      .optional = true};
-const KeySpec kPointingAxis{.name = "pointing_axis",
-                            .type = Type::section,
-                            .doc = "Of the tool, for goals that are a direction.",
-                            .optional = true};
-const KeySpec kShaft{.name = "shaft",
-                     .type = Type::section,
-                     .doc = "The straight shaft of an instrument whose tip is the tool's origin.",
-                     .optional = true};
-const KeySpec kCapsules{
-    .name = "capsules",
-    .type = Type::section,
-    .doc = "The bodies of the links by name, which keep away from forbidden zones.",
-    .optional = true};
-const KeySpec kMasses{.name = "masses",
-                      .type = Type::section,
-                      .doc = "The masses of the links by name, each in one point.",
-                      .optional = true};
+const KeySpec kFrames = section("frames", "Frames by name; goals are stated for 'tool'.");
+const KeySpec kPointingAxis =
+    section("pointing_axis", "Of the tool, for goals that are a direction.");
+const KeySpec kShaft =
+    section("shaft", "The straight shaft of an instrument whose tip is the tool's origin.");
+const KeySpec kCapsules =
+    section("capsules", "The bodies of the links by name, which keep away from forbidden zones.");
+const KeySpec kMasses = section("masses", "The masses of the links by name, each in one point.");
 const KeySpec kHome{.name = "home_deg",
                     .type = Type::numbers,
                     .doc = "The position of all joints at the start.",
                     .optional = true,
                     .also = "home"};
 const KeySpec kName{.name = "name", .type = Type::text, .doc = "The robot's name."};
+const KeySpec kParent{.name = "parent",
+                      .type = Type::text,
+                      .doc = "A joint (with 'urdf' a link), 'base' or a frame."};
 const KeySpec kJointName{.name = "name", .type = Type::text, .doc = "The joint's name."};
 
 void append(std::vector<KeySpec>& keys, const std::vector<KeySpec>& more) {
@@ -69,23 +66,20 @@ std::vector<KeySpec> drive_keys(Joint::Type type) {
 }
 
 std::vector<KeySpec> limit_keys(Joint::Type type, bool optional) {
+  const auto rate = [&](std::string name) {
+    return KeySpec{.name = std::move(name), .doc = "At most.", .optional = optional, .above = 0};
+  };
+  KeySpec limits{.name = "limits_deg",
+                 .type = Type::numbers,
+                 .doc = "[lower, upper].",
+                 .count = 2,
+                 .optional = optional};
   if (type == Joint::Type::revolute) {
-    return {{.name = "limits_deg",
-             .type = Type::numbers,
-             .doc = "[lower, upper].",
-             .count = 2,
-             .optional = optional},
-            {.name = "velocity_rad_s", .doc = "At most.", .optional = optional, .above = 0},
-            {.name = "acceleration_rad_s2", .doc = "At most.", .optional = optional, .above = 0}};
+    return {limits, rate("velocity_rad_s"), rate("acceleration_rad_s2")};
   }
-  return {{.name = "limits_m",
-           .type = Type::numbers,
-           .doc = "[lower, upper].",
-           .count = 2,
-           .optional = optional,
-           .also = "limits_mm"},
-          {.name = "velocity_m_s", .doc = "At most.", .optional = optional, .above = 0},
-          {.name = "acceleration_m_s2", .doc = "At most.", .optional = optional, .above = 0}};
+  limits.name = "limits_m";
+  limits.also = "limits_mm";
+  return {limits, rate("velocity_m_s"), rate("acceleration_m_s2")};
 }
 
 }  // namespace
@@ -122,10 +116,7 @@ const std::vector<KeySpec>& urdf_robot_keys() {
        .doc = "The link that the arm stands on; without: the root.",
        .optional = true},
       {.name = "tip", .type = Type::text, .doc = "The link that goals are stated for."},
-      {.name = "joints",
-       .type = Type::section,
-       .doc = "What the URDF file does not say of a joint, or says otherwise.",
-       .optional = true},
+      section("joints", "What the URDF file does not say of a joint, or says otherwise."),
       kFrames,
       kPointingAxis,
       kShaft,
@@ -152,10 +143,7 @@ std::vector<KeySpec> joint_keys(Joint::Type type, bool is_coupled) {
        .also = "d_mm"},
       {.name = "a_m", .doc = "Along x.", .fallback = default_value("0"), .also = "a_mm"},
       {.name = "alpha_deg", .doc = "About x.", .fallback = default_value("0")},
-      {.name = "coupled",
-       .type = Type::section,
-       .doc = "This joint follows another one.",
-       .optional = true}};
+      section("coupled", "This joint follows another one.")};
   append(keys, limit_keys(type, is_coupled));
   append(keys, drive_keys(type));
   return keys;
@@ -209,9 +197,7 @@ const std::vector<KeySpec>& capsule_keys() {
     return KeySpec{.name = name, .type = Type::numbers, .doc = doc, .count = 3, .also = also};
   };
   static const std::vector<KeySpec> kKeys{
-      {.name = "parent",
-       .type = Type::text,
-       .doc = "A joint (with 'urdf' a link), 'base' or a frame."},
+      kParent,
       end("from_m", "from_mm", "Where its middle line begins in the parent, x, y, z."),
       end("to_m", "to_mm", "Where it ends; the same point for a ball."),
       {.name = "radius_m", .doc = "About that line.", .above = 0, .also = "radius_mm"}};
@@ -219,16 +205,13 @@ const std::vector<KeySpec>& capsule_keys() {
 }
 
 const std::vector<KeySpec>& mass_keys() {
-  static const std::vector<KeySpec> kKeys{
-      {.name = "parent",
-       .type = Type::text,
-       .doc = "A joint (with 'urdf' a link), 'base' or a frame."},
-      {.name = "centre_m",
-       .type = Type::numbers,
-       .doc = "Where it is in the parent, x, y, z.",
-       .count = 3,
-       .also = "centre_mm"},
-      {.name = "mass_kg", .doc = "How much.", .above = 0}};
+  static const std::vector<KeySpec> kKeys{kParent,
+                                          {.name = "centre_m",
+                                           .type = Type::numbers,
+                                           .doc = "Where it is in the parent, x, y, z.",
+                                           .count = 3,
+                                           .also = "centre_mm"},
+                                          {.name = "mass_kg", .doc = "How much.", .above = 0}};
   return kKeys;
 }
 

@@ -225,7 +225,7 @@ void Implant::set_out(Time now) {
   trouble_.clear();
   const SiteWay& way = rounds_[round_].way;
   switch (phase_) {
-    case Phase::approaching: return goal_.set_once({.pose = way.above.front()});
+    case Phase::approaching: homing_ = false; return goal_.set_once({.pose = way.above.front()});
     case Phase::withdrawing: return lead_out();
     default:
       if (pass().turns) {
@@ -286,9 +286,16 @@ void Implant::finish_round(Time now) {
   procedure_.enter(rounds_[round_].approach - 1);
 }
 
+bool Implant::has_left() const {
+  constexpr double kAtRest_m = 1e-3;
+  return came_from_ && (tool() - came_from_->position).norm() > kAtRest_m;
+}
+
 bool Implant::near_the_jaw() const {
   switch (phase_) {
-    case Phase::approaching: return under_way();
+    case Phase::registering:
+    case Phase::locating: return has_left();
+    case Phase::approaching: return under_way() || has_left();
     case Phase::drilling:
     case Phase::placing:
     case Phase::withdrawing:

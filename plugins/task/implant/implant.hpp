@@ -121,6 +121,8 @@ class Implant {
   bool watches_the_jaw() const { return phase_ == Phase::approaching || at_sites(); }
   /// The approach has moved the arm.
   bool under_way() const { return !goal_.left() && goal_.has_moved(); }
+  /// Where the approach began.
+  bool has_left() const;
   /// On its way there, or not out yet.
   bool near_the_jaw() const;
   const Pass& pass() const { return rounds_[round_].way.passes[pass_]; }
@@ -146,7 +148,7 @@ class Implant {
   std::optional<ToolPose> came_from_;  // where the approach began
   std::size_t round_ = 0, pass_ = 0;   // of rounds_, and of its way
   Time out_at_;                        // since then the drill is out, and may be changed
-  bool homing_ = false;                // led out: on the way to where the approach began
+  bool homing_ = false;                // the way out leads straight to where the approach began
   bool led_out_anyhow_ = false;        // aborted while it was held, whatever the handpiece does
   std::string trouble_;
 };

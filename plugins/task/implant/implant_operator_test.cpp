@@ -96,6 +96,37 @@ TEST_F(OperatedImplantTest, BackBeforeTheFirstSiteRegistersAgain) {
   EXPECT_EQ(asked(), "approach");
 }
 
+TEST_F(OperatedImplantTest, AbortedWhileItRegistersAgainItGoesToWhereItCameFrom) {
+  const Vector3d came_from = tool();
+  confirm("approach");
+  run_until_asked();
+  confirm("site 1");
+  stop_half_way();
+  EXPECT_EQ(say("back"), "");
+  run_until_asked();
+  ASSERT_EQ(asked(), "site 1");
+  EXPECT_EQ(say("back"), "");
+  ASSERT_TRUE(task_.wants_registration());
+  const std::size_t until_then = goals_.size();
+  EXPECT_EQ(say("abort"), "");
+  go_to(Phase::aborted);
+  EXPECT_LT((tool() - came_from).norm(), 1e-9);
+  for (std::size_t i = until_then; i < goals_.size(); ++i) {
+    EXPECT_NE(goals_[i].mode, MotionMode::retrace) << "its last way was that into the bone";
+  }
+}
+
+TEST_F(OperatedImplantTest, AbortedWhenItsSecondApproachIsAskedItGoesToWhereItCameFrom) {
+  const Vector3d came_from = tool();
+  confirm("approach");
+  run_until_asked();
+  EXPECT_EQ(say("back"), "");
+  go_to(Phase::approaching);
+  EXPECT_EQ(say("abort"), "");
+  go_to(Phase::aborted);
+  EXPECT_LT((tool() - came_from).norm(), 1e-9);
+}
+
 TEST_F(OperatedImplantTest, AnApproachThatWasLeftBackIsNotGoneOnWithAfterAPause) {
   confirm("approach");
   EXPECT_EQ(say("back"), "");

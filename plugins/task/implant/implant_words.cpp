@@ -56,6 +56,7 @@ void Implant::see_jaw_moved(const std::string& why) {
 void Implant::register_again(const std::string& why) {
   guidance_.register_again(why);
   trouble_.clear();
+  homing_ = has_left();
   phase_ = Phase::registering;
   procedure_.enter(kRegistration);
 }
@@ -86,8 +87,10 @@ Expected<void> Implant::abort() {
 
 void Implant::turn_back() {
   const bool approached = procedure_.step() > rounds_[round_].approach;
-  homing_ = homing_ || !approached;
-  if (!approached) return goal_.retrace(false);
+  if (!approached && !homing_) {
+    homing_ = true;
+    return goal_.retrace(false);
+  }
   if (thread()) {
     constexpr double kAtMouth_m = 1e-4;
     if (thread()->advance_m(tool()) > kAtMouth_m) return turn_out();

@@ -172,5 +172,13 @@ TEST(CalibrateStereo, RefusesAFolderThatIsNotThere) {
   EXPECT_FALSE(fs::exists(boards.path("head.yaml")));
 }
 
+TEST(CalibrateStereo, RefusesASquareWithoutASize) {
+  const CommandResult result =
+      run_command({armature(), "calibrate", "stereo", "--square-mm", "nan", "--left", "here",
+                   "--right", "here", "--board", "9", "6", "-o", "head.yaml"});
+  EXPECT_EQ(result.exit_code, 2) << result.out;
+  EXPECT_NE(result.err.find("--square-mm"), std::string::npos) << result.err;
+}
+
 }  // namespace
 }  // namespace armature::test

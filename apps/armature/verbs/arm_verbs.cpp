@@ -83,6 +83,7 @@ void add_stereo_calibration(CLI::App* calibrate, Action& action) {
       ->check(CLI::Range(3, 50));
   stereo->add_option("--square-mm", options->square_mm, "side of a square, measured")
       ->required()
+      ->check(wrong_number)
       ->check(CLI::Range(1.0, 500.0));
   stereo->add_option("-o,--output", options->output, "file for camera/stereo_pair to write")
       ->required();

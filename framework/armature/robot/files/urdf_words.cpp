@@ -11,7 +11,7 @@
 namespace armature {
 namespace {
 
-using config::did_you_mean;
+using config::did_you_mean, config::spelling_hint;
 using config::Origin;
 using Names = std::vector<std::string>;
 
@@ -43,8 +43,7 @@ bool is_of_a_namespace(std::string_view name) { return name.find(':') != name.np
 /// "; did you mean ..." of a word that is not known, empty of one that is or is another's.
 std::string hint(std::string_view word, const Names& known, bool others_may_be) {
   if (std::ranges::find(known, word) != known.end() || is_of_a_namespace(word)) return "";
-  const std::string text = did_you_mean(word, known);
-  return others_may_be && !text.starts_with("; did you mean") ? "" : text;
+  return others_may_be ? spelling_hint(word, known) : did_you_mean(word, known);
 }
 
 /// Says what is wrong in one joint.

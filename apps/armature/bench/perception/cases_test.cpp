@@ -89,6 +89,13 @@ TEST(PerceptionCases, AreWhatTheNameOfTheirGroupSays) {
     }
   }
   for (const auto& one : groups.at("mask")) EXPECT_EQ(one.staging.occluder, scene::Occluder::mask);
+  for (const auto& one : groups.at("another person in the right picture")) {
+    ASSERT_TRUE(one.right_face_seed);
+    EXPECT_NE(*one.right_face_seed, one.face_seed);
+    const Eigen::Vector3d apart = one.right_shows.translation() - one.left_shows.translation();
+    EXPECT_GT(std::abs(apart.x()), 0.02 - 1e-9);
+    EXPECT_LT(std::abs(apart.y()), 0.002) << "rows tell nothing";
+  }
   for (const auto& one : groups.at("baseline 60 mm")) EXPECT_EQ(one.camera.baseline_m, 0.06);
   for (const auto& one : groups.at("640 x 480 px")) EXPECT_EQ(one.camera.width, 640);
   for (const auto& one : groups.at("right late, face moved 3 to 15 mm")) {

@@ -112,6 +112,13 @@ constexpr std::array kGroups{
                     Eigen::Vector3d{draw.either_side(0.25, 0.35), draw.between(-0.05, 0.05),
                                     draw.between(0.2, 0.35)};
               }},
+    CaseGroup{"another person in the right picture",
+              [](DrawnCase& one, Draw& draw) {
+                do {
+                  one.drawn.right_face_seed = draw.face(FaceWears::nothing);
+                } while (one.drawn.right_face_seed == one.drawn.face_seed);
+                one.late_m = {draw.either_side(0.02, 0.08), draw.between(-0.002, 0.002), 0};
+              }},
     CaseGroup{"right gain 0.5 to 0.8", darken_right},
     CaseGroup{"right rolled 0.2 to 1 deg", roll_right},
     CaseGroup{"right 1 to 5 rows off",

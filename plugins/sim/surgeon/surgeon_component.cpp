@@ -129,7 +129,9 @@ class Surgeon final : public Component {
 
   Expected<PosePath> path_from(const msg::PoseArray& poses) const {
     constexpr std::string_view kName = "the path of the topic";
-    if (auto wrong = not_in_base(poses.header_(), kName)) return refuse(*wrong);
+    if (auto wrong = not_in_frame(poses.header_(), kBaseFrame, "the path of the topic is")) {
+      return refuse(*wrong);
+    }
     if (taken_at_) return refuse(fmt::format("{} came when the leader was taken", kName));
     if (poses.poses_().size() > kMostPoses) {
       return refuse(fmt::format("{} has {} poses, and {} at most are taken", kName,

@@ -28,6 +28,12 @@ class LampAlignmentTest : public testing::Test {
     return task_.phase() == phase;
   }
 
+  /// In a search, from the view that shows him.
+  bool looks_ahead() const {
+    return task_.phase() == Phase::searching && task_.capture() &&
+           std::get<Direction>(lamp_.orientation).unit.x() > 0.8;
+  }
+
   void tick() {
     now_ = now_ + seconds(0.02);
     ++ticks_;

@@ -236,7 +236,7 @@ void Implant::set_out(Time now) {
                               .pitch_m = guidance_.implants()[site].pitch_m},
                              now);
       }
-      return goal_.set_once(pass().goal);
+      return goal_.set_once(way_in(way, tool(), pass()));
   }
 }
 

@@ -84,6 +84,25 @@ TEST_F(OperatedImplantTest, BackOutOfABoreAsksForItsSiteAgain) {
   EXPECT_EQ(asked(), "site 1") << "once more";
 }
 
+TEST_F(OperatedImplantTest, BackToTheSiteBeforeItGoesInFromAboveIt) {
+  confirm("approach");
+  run_until_asked();
+  const Vector3d above_site_1 = tool();
+  confirm("site 1");
+  EXPECT_TRUE(goals_.back().through.empty()) << "from above it";
+  run_until_asked();
+  before_ = tool();
+  confirm("site 2");
+  stop_half_way();
+  EXPECT_EQ(say("back"), "");
+  run_until_asked();
+  ASSERT_EQ(asked(), "site 2") << "from above which it goes";
+  EXPECT_EQ(say("back"), "");
+  confirm("site 1");
+  ASSERT_FALSE(goals_.back().through.empty()) << "not through the bone between the two";
+  EXPECT_LT((goals_.back().through.back().position - above_site_1).norm(), 1e-9);
+}
+
 TEST_F(OperatedImplantTest, BackBeforeTheFirstSiteRegistersAgain) {
   EXPECT_EQ(say("back"), "");
   EXPECT_TRUE(task_.wants_registration());

@@ -47,7 +47,6 @@ std::vector<Pass> site_by_site(const SiteWay& way) {
             .site = i,
             .sites = i + 1,
             .name = fmt::format("site {}", i + 1)};
-    if (i > 0) in.goal.through = {way.above[i]};
     Pass out{
         .goal = {.pose = way.above[i]}, .site = i, .sites = i + 1, .name = "out of " + in.name};
     passes.push_back(std::move(in));
@@ -150,7 +149,6 @@ SiteWay placing_way(const GuidedChain& chain, const Isometry3d& flange_T_file_to
                      .site = i,
                      .sites = i,
                      .name = name};
-    if (i > 0) to_the_bone.goal.through = {above.pose};
     Pass in{.goal = goal(place_of(site, implants[i])),
             .turns = true,
             .ends_at_bottom = true,
@@ -187,6 +185,15 @@ MotionGoal way_out(const SiteWay& way, const Eigen::Vector3d& tool, std::size_t 
     if (!is_above(way, tool, at)) goal.through.push_back(way.above[at]);
   }
   goal.pose = way.above[site];
+  return goal;
+}
+
+MotionGoal way_in(const SiteWay& way, const Eigen::Vector3d& tool, const Pass& pass) {
+  MotionGoal goal = pass.goal;
+  if (!pass.asks || is_above(way, tool, pass.site)) return goal;
+  MotionGoal there = way_out(way, tool, pass.site);
+  there.through.push_back(there.pose);
+  goal.through.insert(goal.through.begin(), there.through.begin(), there.through.end());
   return goal;
 }
 

@@ -32,7 +32,7 @@ std::optional<std::string> defect(const std::vector<PlannedImplant>& implants, s
 
 /// One motion of the tool.
 struct Pass {
-  MotionGoal goal;
+  MotionGoal goal;              // from above the site, where it begins a step
   bool asks = false;            // it begins a step, before which the operator is asked
   bool turns = false;           // the implant goes into its thread
   bool ends_at_bottom = false;  // of a site, where the tool stays for a while
@@ -73,6 +73,10 @@ Eigen::Isometry3d place_of(const Eigen::Isometry3d& image_T_site, const PlannedI
 /// From a place on the way out of the bore that the tool is in and, from above one site to above
 /// the next, back to above `site`. `tool`: where the tool is [m].
 MotionGoal way_out(const SiteWay& way, const Eigen::Vector3d& tool, std::size_t site);
+
+/// The goal of a pass of the way. One that begins a step goes over the sites first, from wherever
+/// the tool is above them or in a bore, to above its own.
+MotionGoal way_in(const SiteWay& way, const Eigen::Vector3d& tool, const Pass& pass);
 
 /// Whether it is there already.
 bool is_above(const SiteWay& way, const Eigen::Vector3d& tool, std::size_t site);

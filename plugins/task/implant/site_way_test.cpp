@@ -79,9 +79,15 @@ TEST_F(SiteWayTest, OrEndsAMotionAtEveryBottomAndAboveIt) {
       EXPECT_FALSE(out.ends_at_bottom);
       expect_at(out.goal.pose, i, 0.02);
       EXPECT_TRUE(out.goal.through.empty());
-      ASSERT_EQ(in.goal.through.size(), i > 0 ? 1u : 0u);
-      if (i > 0) expect_at(in.goal.through[0], i, 0.02);
+      EXPECT_TRUE(way_in(way, way.above[i].position, in).through.empty());
+      const auto through = way_in(way, way.above[i == 0 ? 1 : i - 1].position, in).through;
+      ASSERT_EQ(through.size(), 1u) << "from above another site first above its own";
+      expect_at(through[0], i, 0.02);
     }
+    const auto over_site_2 = way_in(way, way.above[2].position, way.passes[0]).through;
+    ASSERT_EQ(over_site_2.size(), 2u);
+    expect_at(over_site_2[0], 1, 0.02);
+    expect_at(over_site_2[1], 0, 0.02);
     EXPECT_EQ(way.passes[2].name, "site 2");
     EXPECT_EQ(way.passes[5].name, "out of site 3");
   }

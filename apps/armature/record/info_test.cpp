@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What `armature info` counts and tells.
+// `armature info` counts messages, and tells what a recording holds.
 #include <gmock/gmock.h>
 
 #include <cstdint>

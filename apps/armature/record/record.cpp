@@ -18,7 +18,6 @@
 #include "armature/runtime/deployment_file/record_config.hpp"
 #include "armature/values/json_text.hpp"
 #include "armature/values/monotonic_now.hpp"
-#include "armature/web/told_once.hpp"
 #include "exit_code.hpp"
 #include "record/destination.hpp"
 #include "record/recorder.hpp"
@@ -49,7 +48,7 @@ class Topics {
       const std::string name = ros_topic_name(topic.name);
       if (watched_.contains(name)) {
         if (std::ranges::find(again, topic.name) != again.end()) {
-          told_unheard_.forget(name);
+          told_unheard_.erase(name);
           fmt::print(
               stderr,
               "armature: {} is written with another type or less QoS now: it is recorded anew "
@@ -86,7 +85,7 @@ class Topics {
  private:
   /// Once for each topic.
   void tell_unheard(const std::string& name, std::ptrdiff_t writers) {
-    if (writers == 0 || !told_unheard_.is_new(name)) return;
+    if (writers == 0 || !told_unheard_.insert(name).second) return;
     fmt::print(stderr,
                "armature: {} of the writers of {} are not recorded: a topic is read with the type "
                "and the QoS of the writer that came first, and theirs do not match; give all of "
@@ -96,8 +95,7 @@ class Topics {
 
   const RecordOptions& options_;
   Recorder& recorder_;
-  std::set<std::string> watched_;
-  ToldOnce told_unheard_;
+  std::set<std::string> watched_, told_unheard_;
   Outsider outsider_;  // goes before what its callbacks use
 };
 

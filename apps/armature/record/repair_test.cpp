@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is left of a damaged recording, and what is replaced by the one that is made of it.
+// `armature record --repair` keeps what is left of a damaged recording, and replaces no device.
 #include <gmock/gmock.h>
 #include <sys/stat.h>
 

@@ -64,7 +64,7 @@ class MainWatch final : public ProcessWatch {
   void tell_trouble(const std::string& text);
   void tell_clock_step();
   void tell_notes();
-  /// Of any process to all others, so that their black boxes have what happened around it.
+  /// Tells troubles of any process to all others: their black boxes have what happened around them.
   void pass_on_troubles();
   [[noreturn]] void refuse_to_start(const std::string& waiting) const;
 
@@ -98,8 +98,8 @@ class ChildWatch final : public ProcessWatch {
   void stopping(const std::string& cause, bool scenario_over) override;
   bool may_end(const std::vector<std::string>& moving, Duration left) override;
 
-  /// What runs here: during the run it is told the main process' clock, as the agent of this host
-  /// sees it, and troubles of the other processes.
+  /// The deployment that runs here. During the run it is told the main process' clock, as the agent
+  /// of this host sees it, and troubles of the other processes.
   void set_deployment(Deployment& deployment) { deployment_ = &deployment; }
   /// True without a main process.
   bool alone() const { return control_.file() < 0; }

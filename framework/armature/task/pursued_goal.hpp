@@ -50,9 +50,9 @@ class PursuedGoal {
   bool on_its_way() const { return state_ == State::waiting || state_ == State::moving; }
   /// No goal is pursued: none was set yet, or it was left and no other one set.
   bool left() const;
-  /// And the arm does not slow down from it any more: it may be turned round.
+  /// It is left, and the arm does not slow down from it any more: it may be turned round.
   bool is_free() const { return left() && state_ != State::pausing; }
-  /// Because of the goal, before a pause of it, or on and back along its way.
+  /// The arm has moved because of the goal: before a pause of it, or on and back along its way.
   bool has_moved() const { return has_moved_; }
   /// Refuses while the motion tells that the arm is stopped: a word that wants it moved would do
   /// nothing then.

@@ -15,7 +15,6 @@ class ToldOnce {
     constexpr std::size_t kMost = 100;
     return told_.size() < kMost && told_.insert(what).second;
   }
-  void forget(const std::string& what) { told_.erase(what); }
 
  private:
   std::set<std::string> told_;

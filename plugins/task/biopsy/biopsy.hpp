@@ -86,14 +86,14 @@ class Biopsy {
   /// The step that begins at a stop of the way: 0 is its start, `way_stops_` the target.
   Step step_from(int place) const;
   bool stands_where_it_began() const { return heading_ == Heading::none && place_ == 0; }
-  /// From where the way began, and it has not come back.
+  /// The needle has left where the way began, and has not come back.
   bool has_set_out() const { return way_stops_ > 0 || goal_.has_moved(); }
   Expected<void> go_back(Time now);
   Expected<void> abort();
   /// Along the way, once the arm rests.
   Expected<void> turn(Heading heading);
   void retrace(Heading heading);
-  /// Of a way that was not begun: the arm is where it would lead back to.
+  /// Ends a way that was not begun: the arm is where it would lead back to.
   void turn_at_once(Time now);
   /// A way that has not been begun is planned anew once the approach is confirmed again.
   void ask_again(Time now);

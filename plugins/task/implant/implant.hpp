@@ -121,7 +121,7 @@ class Implant {
   bool watches_the_jaw() const { return phase_ == Phase::approaching || at_sites(); }
   /// The approach has moved the arm.
   bool under_way() const { return !goal_.left() && goal_.has_moved(); }
-  /// Where the approach began.
+  /// The tool is not where the approach began any more.
   bool has_left() const;
   /// On its way there, or not out yet.
   bool near_the_jaw() const;

@@ -194,7 +194,7 @@ class Observer final : public DdsObserver {
     return endpoints;
   }
 
-  /// What the reader for a writer asks for: what that one offers and no more, so that it always
+  /// The reader for a writer asks for as much as that one offers and no more, so that it always
   /// matches.
   Endpoint asked_of(Endpoint writer) const {
     writer.reliable = writer.reliable && asks_again_;
@@ -205,7 +205,7 @@ class Observer final : public DdsObserver {
     const auto dds_topic = participant_->topic(writer.topic, writer.type);
     if (!dds_topic) return tl::unexpected{dds_topic.error()};
     writer = asked_of(std::move(writer));
-    // What it keeps for late joiners comes all at once.
+    // Samples that it keeps for late joiners come all at once.
     const QosSettings settings{.reader_reliable = writer.reliable,
                                .transient_local = writer.transient_local,
                                .depth = writer.transient_local ? 100 : 10};

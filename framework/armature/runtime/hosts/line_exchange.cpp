@@ -26,11 +26,20 @@ std::optional<std::uint64_t> number(std::string_view text) {
   return whole ? std::optional{value} : std::nullopt;
 }
 
+/// Whether a character of UTF-8 goes on with this byte.
+bool is_inside_a_character(char byte) {
+  return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
+}
+
 }  // namespace
 
 /// The other end counts lines by their ends.
 void LineExchange::send(std::string line) {
-  if (line.size() > kLongestLine) line.replace(kLongestLine - kCut.size(), line.npos, kCut);
+  if (line.size() > kLongestLine) {
+    std::size_t end = kLongestLine - kCut.size();
+    while (end > 0 && is_inside_a_character(line[end])) --end;
+    line.replace(end, line.npos, kCut);
+  }
   std::ranges::replace(line, '\n', ' ');
   if (line.empty()) line = " ";
   unacknowledged_.push_back(std::move(line));

@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "armature/values/utf8.hpp"
+
 namespace armature {
 namespace {
 
@@ -91,6 +93,21 @@ TEST(LineExchange, CutsALongLineAndGoesOnBehindIt) {
   EXPECT_EQ(received(main),
             (std::vector<std::string>{"stop " + std::string(8'000 - 5 - 3, 'x') + "...", "end"}));
   EXPECT_EQ(desk.waiting(), 0U);
+}
+
+TEST(LineExchange, CutsNoCharacterInTwo) {
+  LineExchange desk{"desk"}, main{"main"};
+  std::string umlauts;
+  for (int i = 0; i < 5000; ++i) umlauts += "\u00fc";
+  for (const std::string begin : {"stop ", "stop it "}) {
+    desk.send(begin + umlauts);
+    EXPECT_TRUE(main.take(desk.message(), Time{1}));
+    EXPECT_TRUE(desk.take(main.message(), Time{1}));
+    const auto lines = received(main);
+    ASSERT_EQ(lines.size(), 1U);
+    EXPECT_TRUE(is_utf8(lines[0]));
+    EXPECT_GE(lines[0].size(), 7'999U);
+  }
 }
 
 TEST(LineExchange, CarriesEveryLineOnceAndInOrderOverAWayThatLosesDoublesAndReorders) {

@@ -2,9 +2,10 @@
 // Operators who say anything at any time, by where the arm truly is: 1. it rests while the task
 // asks or is paused, 2. after an abort it comes to where it shall and moves no more, 3. a tool in a
 // body goes along its line only, 4. every word is answered, and the run comes to its end, 5. the
-// same operator gives the same run. ARMATURE_OPERATORS: so many of every system, from number
+// same operator gives the same run, 6. an arm that is stopped stays so, and a rearm moves nothing.
+// ARMATURE_OPERATORS: so many of every system, from number
 // ARMATURE_FIRST_OPERATOR on.
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -38,6 +39,7 @@ struct System {
   std::string but_for = {};  // or is refused for this
   int seeds = 8;
   bool leads_out = false;  // an abort: to where the approach began
+  int mishaps = 0;
 };
 
 std::ostream& operator<<(std::ostream& out, const System& system) { return out << system.name; }
@@ -63,7 +65,8 @@ OperatedRun run_with(const System& system, int seed) {
   const bool aborts = seed % 4 == 0;
   start.settings.insert(start.settings.end(),
                         {params + "file=" + file, params + "seed=" + std::to_string(seed),
-                         params + "aborts=" + (aborts ? "true" : "false")});
+                         params + "aborts=" + (aborts ? "true" : "false"),
+                         params + "mishaps=" + std::to_string(system.mishaps)});
   start.options.environment["ARMATURE_PLUGIN_PATH"] = TEST_PLUGINS;
   OperatedRun operated{.run = run_deployment(start), .chronicle = {}};
   if (!std::filesystem::exists(file)) throw std::runtime_error{operated.run.text()};
@@ -105,6 +108,7 @@ class AnyOperator : public testing::TestWithParam<System> {
   void expect_drill_on_its_lines(const OperatorChronicle& run) const;
   static void expect_answers(const OperatorChronicle& run);
   void expect_end(const OperatedRun& operated) const;
+  void expect_stops_that_stay(const OperatorChronicle& run) const;
 
   const RobotModel robot_ = load_robot_model(source_file("configs/robots/" + GetParam().robot));
 };
@@ -264,8 +268,9 @@ void AnyOperator::expect_drill_on_its_lines(const OperatorChronicle& run) const 
 
 void AnyOperator::expect_answers(const OperatorChronicle& run) {
   constexpr double kAnswered_s = 0.3;
+  const bool is_over = !run.task.empty() && run.task.back().state == "refused";
   for (const Word& word : run.words) {
-    if (word.time_s + kAnswered_s > run.end_s) continue;
+    if (word.time_s + kAnswered_s > (is_over ? run.task.back().time_s : run.end_s)) continue;
     EXPECT_TRUE(word.answer) << "no answer to '" << word.word << "' of " << word.time_s << " s";
     if (word.answer) {
       EXPECT_LT(word.answered_s - word.time_s, kAnswered_s);
@@ -283,6 +288,10 @@ void AnyOperator::expect_end(const OperatedRun& operated) const {
     EXPECT_NE(abort, words.end()) << report;
     return;
   }
+  if (GetParam().mishaps > 0) {
+    EXPECT_THAT(status, testing::AnyOf("ok", "refused")) << report;
+    return;
+  }
   constexpr double kEndsWithin_s = 0.5;  // a run that is over, since arms and hands come to rest
   EXPECT_TRUE(abort == words.end() || !abort->answer ||
               abort->time_s + kEndsWithin_s > operated.chronicle.end_s)
@@ -292,6 +301,27 @@ void AnyOperator::expect_end(const OperatedRun& operated) const {
   if (!GetParam().ends_well || is_known) return;
   EXPECT_EQ(status, "ok") << report;
   EXPECT_EQ(operated.run.command.exit_code, 0) << report;
+}
+
+// 6.
+
+void AnyOperator::expect_stops_that_stay(const OperatorChronicle& run) const {
+  std::optional<double> stopped_s;
+  for (auto mishap = run.mishaps.begin(); mishap != run.mishaps.end(); ++mishap) {
+    if (mishap->what == "stopped") stopped_s = mishap->time_s;
+    if (mishap->what != "not stopped" || !stopped_s) continue;
+    const auto word = std::ranges::find_if(run.words, [&](const Word& said) {
+      return said.time_s > mishap->time_s && said.obeyed() && said.word != "pause";
+    });
+    const double until_s = word == run.words.end() ? run.end_s : word->time_s;
+    EXPECT_LE(moved(run, *stopped_s + GetParam().stops_within_s, until_s), 1e-6)
+        << "stopped at " << *stopped_s << " s, rearmed at " << mishap->time_s
+        << " s, no word until " << until_s << " s";
+    stopped_s.reset();
+  }
+  if (!stopped_s) return;
+  EXPECT_LE(moved(run, *stopped_s + GetParam().stops_within_s, run.end_s), 1e-6)
+      << "stopped at " << *stopped_s << " s";
 }
 
 TEST_P(AnyOperator, LetsNoArmMoveOtherwiseThanItMay) {
@@ -309,6 +339,7 @@ TEST_P(AnyOperator, LetsNoArmMoveOtherwiseThanItMay) {
     }
     expect_answers(operated.chronicle);
     expect_end(operated);
+    if (!GetParam().hand_leads) expect_stops_that_stay(operated.chronicle);
   }
 }
 
@@ -323,57 +354,68 @@ TEST_P(AnyOperator, WhoSaysTheSameGivesTheSameRun) {
   EXPECT_TRUE(once.chronicle.text == again.chronicle.text);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Of, AnyOperator,
-    testing::Values(
-        System{.name = "Tour",
-               .file = "tests/faults/tour.yaml",
-               .robot = "med7.yaml",
-               .settings = {"components.task.params.rounds=3", "components.task.params.rest_s=0.5"},
-               .rests_while = {"waiting", "resting"}},
-        System{.name = "Biopsy",
-               .file = "configs/sr1_biopsy.yaml",
-               .robot = "sr1_needle.yaml",
-               .rests_while = {"registering", "at target"},
-               .body = Body::head,
-               .leads_out = true},
-        System{.name = "TouchedBiopsy",
-               .file = "configs/sr1_touching.yaml",
-               .robot = "sr1_needle.yaml",
-               .settings = {"run.time_limit_s=60"},
-               .rests_while = {"at target"},
-               .body = Body::head,
-               .hand_leads = true,
-               .ends_well = false,
-               .seeds = 3},
-        System{.name = "Implant",
-               .file = "configs/dental_implant.yaml",
-               .robot = "med7.yaml",
-               .settings = {"components.operator.robot=arm", "components.operator.params.words=60",
-                            "components.task.params.calibration_poses=12"},
-               .rests_while = {"pivoting", "registering", "locating", "changing tool"},
-               .stops_within_s = 1.5,
-               .body = Body::jaw,
-               // What turns the tools in the hand does not wait for a task that is paused.
-               .but_for = "pivot: the tracker has not seen",
-               .seeds = 4,
-               .leads_out = true},
-        System{.name = "Teleoperation",
-               .file = "configs/master_manipulator.yaml",
-               .robot = "med7_scope.yaml",
-               .settings = {"components.operator.robot=follower"},
-               .rests_while = {"waiting", "aligning", "aligned", "clutch open"},
-               .stops_within_s = 0.4,
-               .body = Body::incision,
-               .ends_well = false,
-               .seeds = 4},
-        System{.name = "Lamp",
-               .file = "configs/dental_lamp.yaml",
-               .robot = "dental_lamp.yaml",
-               .settings = {"components.operator.params.words=10"},
-               .rests_while = {"checking light"},
-               .seeds = 1}),
-    [](const auto& system) { return system.param.name; });
+/// Each system with its operator alone, and where something stops the arm now and then, too.
+std::vector<System> systems() {
+  std::vector<System> all{
+      System{.name = "Tour",
+             .file = "tests/faults/tour.yaml",
+             .robot = "med7.yaml",
+             .settings = {"components.task.params.rounds=3", "components.task.params.rest_s=0.5"},
+             .rests_while = {"waiting", "resting"}},
+      System{.name = "Biopsy",
+             .file = "configs/sr1_biopsy.yaml",
+             .robot = "sr1_needle.yaml",
+             .rests_while = {"registering", "at target"},
+             .body = Body::head,
+             .leads_out = true},
+      System{.name = "TouchedBiopsy",
+             .file = "configs/sr1_touching.yaml",
+             .robot = "sr1_needle.yaml",
+             .settings = {"run.time_limit_s=60"},
+             .rests_while = {"at target"},
+             .body = Body::head,
+             .hand_leads = true,
+             .ends_well = false,
+             .seeds = 3},
+      System{.name = "Implant",
+             .file = "configs/dental_implant.yaml",
+             .robot = "med7.yaml",
+             .settings = {"components.operator.robot=arm", "components.operator.params.words=60",
+                          "components.task.params.calibration_poses=12"},
+             .rests_while = {"pivoting", "registering", "locating", "changing tool"},
+             .stops_within_s = 1.5,
+             .body = Body::jaw,
+             // What turns the tools in the hand does not wait for a task that is paused.
+             .but_for = "pivot: the tracker has not seen",
+             .seeds = 4,
+             .leads_out = true},
+      System{.name = "Teleoperation",
+             .file = "configs/master_manipulator.yaml",
+             .robot = "med7_scope.yaml",
+             .settings = {"components.operator.robot=follower",
+                          "components.leader_motion.in.rearm=motion/rearm"},
+             .rests_while = {"waiting", "aligning", "aligned", "clutch open"},
+             .stops_within_s = 0.4,
+             .body = Body::incision,
+             .ends_well = false,
+             .seeds = 4},
+      System{.name = "Lamp",
+             .file = "configs/dental_lamp.yaml",
+             .robot = "dental_lamp.yaml",
+             .settings = {"components.operator.params.words=10"},
+             .rests_while = {"checking light"},
+             .seeds = 1}};
+  for (std::size_t i = 0, alone = all.size(); i < alone; ++i) {
+    System stopped = all[i];
+    stopped.name = "Stopped" + stopped.name;
+    stopped.mishaps = 4;
+    all.push_back(stopped);
+  }
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, AnyOperator, testing::ValuesIn(systems()),
+                         [](const auto& system) { return system.param.name; });
 
 }  // namespace
 }  // namespace armature::test

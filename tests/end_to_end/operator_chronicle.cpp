@@ -58,6 +58,15 @@ Chronicle::Task task_of(std::istream& line, double time_s) {
   return task;
 }
 
+/// What a line of that kind tells of a stop; empty: nothing.
+std::string mishap_of(const std::string& kind, std::istream& line) {
+  if (kind == "over" || kind == "rearmed") return kind;
+  std::string what;
+  if (kind == "mishap" || kind == "stopped") line >> what;
+  if (kind == "stopped") return what == "1" ? "stopped" : "not stopped";
+  return what;
+}
+
 void answer(Chronicle& chronicle, std::istream& line, double time_s) {
   std::uint64_t id = 0;
   line >> id;
@@ -71,7 +80,7 @@ void answer(Chronicle& chronicle, std::istream& line, double time_s) {
 }  // namespace
 
 Chronicle read_operator_chronicle(const std::string& text) {
-  Chronicle chronicle{.text = text, .arm = {}, .goals = {}, .task = {}, .words = {}};
+  Chronicle chronicle{.text = text, .arm = {}, .goals = {}, .task = {}, .words = {}, .mishaps = {}};
   std::istringstream lines{text};
   for (std::string one; std::getline(lines, one);) {
     std::istringstream line{one};
@@ -80,6 +89,9 @@ Chronicle read_operator_chronicle(const std::string& text) {
     line >> kind >> time_s;
     EXPECT_TRUE(line) << one;
     chronicle.end_s = time_s;
+    if (const std::string what = mishap_of(kind, line); !what.empty()) {
+      chronicle.mishaps.push_back({.time_s = time_s, .what = what});
+    }
     if (kind == "arm") chronicle.arm.push_back(arm_of(line, time_s));
     if (kind == "task") chronicle.task.push_back(task_of(line, time_s));
     if (kind == "answered") answer(chronicle, line, time_s);
@@ -100,8 +112,15 @@ Chronicle read_operator_chronicle(const std::string& text) {
 std::string Chronicle::story() const {
   std::string story;
   auto said = words.begin();
+  auto mishap = mishaps.begin();
+  const auto tell_mishaps = [&](double until_s) {
+    for (; mishap != mishaps.end() && mishap->time_s <= until_s; ++mishap) {
+      story += fmt::format("{:9.3f} s  -- {}\n", mishap->time_s, mishap->what);
+    }
+  };
   const auto tell_words = [&](double until_s) {
     for (; said != words.end() && said->time_s <= until_s; ++said) {
+      tell_mishaps(said->time_s);
       story += fmt::format("{:9.3f} s  says {} {}: {}\n", said->time_s, said->word, said->step,
                            !said->answer           ? "not answered"
                            : said->answer->empty() ? "obeyed"
@@ -110,10 +129,12 @@ std::string Chronicle::story() const {
   };
   for (const Task& told : task) {
     tell_words(told.time_s);
+    tell_mishaps(told.time_s);
     story += fmt::format("{:9.3f} s  {}{} {} {}\n", told.time_s, told.paused ? "paused: " : "",
                          told.state, told.asks ? "asks for '" + told.step + "'" : "", told.detail);
   }
   tell_words(end_s);
+  tell_mishaps(end_s);
   return story;
 }
 

@@ -28,6 +28,12 @@ struct OperatorChronicle {
     bool asks = false, paused = false;
     std::string state, step, detail;
   };
+  /// Something stopped it (what: "stop", "hold", "power"), or ended: "over", "rearmed"; and motion
+  /// telling so from then on ("stopped"), or no more ("not stopped").
+  struct Mishap {
+    double time_s = 0;
+    std::string what;
+  };
   struct Word {
     double time_s = 0;
     std::uint64_t id = 0;
@@ -43,6 +49,7 @@ struct OperatorChronicle {
   std::vector<Goal> goals;
   std::vector<Task> task;
   std::vector<Word> words;
+  std::vector<Mishap> mishaps;
   double end_s = 0;
 
   /// What was said and what became of it, for messages.

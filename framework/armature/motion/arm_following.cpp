@@ -86,7 +86,9 @@ void ArmFollowing::go_along(Time now) {
 }
 
 std::string_view ArmFollowing::stay_with(Time now) {
-  if (now < reference_.end()) return {};
+  const bool stopped = now >= reference_.end();
+  // The power of one that rests may come back before the reference has come to its stop.
+  if (!stopped && !(follows_ == false && rests())) return {};
   const JointVector stands = reference_.at(now).q;
   const auto is_within = [&](const JointBound& bound) {
     return is_near(model_, measured_->q, stands, bound);

@@ -151,6 +151,22 @@ TEST_F(GoalExecutionTest, AnArmThatSaysThatItFollowsNothingTakesNoGoalAndRestsWh
   EXPECT_EQ(statuses_.back().state, State::executing);
 }
 
+TEST_F(GoalExecutionTest, AnArmWhosePowerIsBackBeforeTheReferenceHasStoppedStaysWhereItRests) {
+  step_to(0.1);
+  give(goal_at(1, 0.5, 0.2, 0.3));
+  step_to(0.6);
+  const JointVector braked = before_.q;
+  execution_.halt("the arm says emergency_stop", now_);
+  execution_.set_follows(false);
+  ASSERT_GT((execution_.reference().at(now_ + seconds(10)).q - braked).norm(), 0.01);
+  for (int k = 0; k < 60; ++k) put(braked);
+  execution_.set_follows(true);
+  for (int k = 0; k < 1000; ++k) {
+    put(braked);
+    ASSERT_EQ(before_.q, braked) << k;
+  }
+}
+
 TEST_F(GoalExecutionTest, TheGoalAfterAnOperatorLetGoBetweenTwoGoalsIsNotBegunByTheRearm) {
   step_to(0.1);
   give(goal_at(1, 0.1, 0, 0));

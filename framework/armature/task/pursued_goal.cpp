@@ -121,6 +121,8 @@ void PursuedGoal::give_up_or_try_again(const GoalReport& report, Time now) {
     return;
   }
   state_ = State::failed;
+  // A hand that takes the arm again moves nothing by itself.
+  if (interrupted_ && interrupted_->rest.mode != MotionMode::guided) interrupted_.reset();
   stopped_ = report.stage == kStopStage;
   reason_ = report.state == GoalReport::State::superseded ? "execution: another goal took its place"
                                                           : report.stage + ": " + report.reason;

@@ -17,8 +17,9 @@ namespace armature ARMATURE_EXPORT {
 /// the `outgoing` one. A goal that breaks down on its way, since the arm does not follow, is given
 /// again, too, but not three times within 5 s, nor to an arm that is not ready within 5 s: it has
 /// failed then, since an arm whose power comes back must not move because of what was wanted
-/// before. A goal that was stopped until a rearm has failed: nothing moves because of the rearm.
-/// One that lets a hand move the arm moves nothing by itself, and is given again.
+/// before. A goal that was stopped until a rearm has failed, also one that was being paused:
+/// nothing moves because of the rearm, nor of a resume. One that lets a hand move the arm moves
+/// nothing by itself, and is given again.
 class PursuedGoal {
  public:
   enum class State { none, waiting, moving, pausing, paused, done, failed };

@@ -363,6 +363,26 @@ TEST(PursuedGoal, ThatWasStoppedHasFailedAndIsNotGivenAgain) {
   EXPECT_FALSE(goals.stopped()) << "another goal is another one";
 }
 
+TEST_F(PausedGoalTest, AGoalThatIsStoppedWhileItPausesIsNotGoneOnWith) {
+  const GoalReport stopped{.state = Report::failed, .stage = "stop", .reason = "stopped"};
+  const auto stop_while_it_pauses = [&](const MotionGoal& goal) {
+    goals_.set(goal);
+    sent();
+    hear(Report::executing);
+    goals_.pause();
+    sent();
+    GoalReport report = stopped;
+    report.goal_id = id_;
+    goals_.hear(report, at(1));
+    EXPECT_EQ(goals_.state(), PursuedGoal::State::failed);
+    goals_.resume();
+  };
+  stop_while_it_pauses({});
+  EXPECT_FALSE(goals_.outgoing(at(9)));
+  stop_while_it_pauses({.mode = MotionMode::guided, .pose = {}});
+  EXPECT_EQ(sent().mode, MotionMode::guided) << "a hand moves nothing by itself";
+}
+
 TEST(PursuedGoal, KnowsWhetherTheArmIsStoppedWhateverBecameOfTheGoal) {
   PursuedGoal goals;
   EXPECT_TRUE(goals.may_move());

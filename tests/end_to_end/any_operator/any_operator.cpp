@@ -6,6 +6,8 @@
 //   task TIME ASKS PAUSED|state|step|detail         each change
 //   said TIME id word|step
 //   answered TIME id|why it was refused
+//   mishap TIME what stops the arm; over TIME; rearmed TIME
+//   stopped TIME 1: motion tells so from then on; 0: no more
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,6 +23,8 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/header.hpp"
 #include "armature/messages/sensor_msgs.hpp"
+#include "armature/messages/std_msgs.hpp"
+#include "armature/motion/goal.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
@@ -32,6 +36,10 @@ namespace {
 
 constexpr Duration kPeriod = seconds(0.001);
 constexpr Duration kRow = seconds(0.01);
+
+/// What stops an arm: a button, the pedal that is let go, its drives without power.
+enum class Mishap { stop, hold, power };
+constexpr const char* kMishaps[] = {"stop", "hold", "power"};
 
 /// The step that waits for its confirmation; empty: none.
 std::string question_of(const msg::TaskState& state) {
@@ -51,6 +59,7 @@ class AnyOperator final : public Component {
         parameters_{Parameters::read(setup.params())},
         ports_{setup},
         chance_{parameters_.seed},
+        misfortune_{parameters_.seed + 1'000'000},
         chronicle_{std::filesystem::path{parameters_.file}} {
     if (!chronicle_) throw SetupError("cannot write " + parameters_.file);
     setup.activate_every(kPeriod);
@@ -64,7 +73,9 @@ class AnyOperator final : public Component {
     for (std::size_t i = 0; i < ports_.goal.size(); ++i) write_goal(ports_.goal[i], now);
     for (std::size_t i = 0; i < ports_.state.size(); ++i) see(ports_.state[i], now);
     for (std::size_t i = 0; i < ports_.status.size(); ++i) see(ports_.status[i], now);
+    hold(now);
     if (!met_) return;
+    meet_mishaps(now);
     constexpr double kEvery_s = 4;
     if (happens(to_seconds(kPeriod) / kEvery_s)) talk(now);
     be_patient(now);
@@ -86,7 +97,10 @@ class AnyOperator final : public Component {
     std::optional<msg::OperatorCommand> again = {};  // as it was told before
   };
 
-  double share() { return static_cast<double>(chance_() >> 11) * 0x1p-53; }
+  static double share(std::mt19937_64& chance) {
+    return static_cast<double>(chance() >> 11) * 0x1p-53;
+  }
+  double share() { return share(chance_); }
   bool happens(double probability) { return share() < probability; }
   std::uint64_t below(std::uint64_t count) {
     return static_cast<std::uint64_t>(share() * static_cast<double>(count));
@@ -166,6 +180,51 @@ class AnyOperator final : public Component {
     loan.publish();
   }
 
+  /// The pedal, fifty times a second.
+  void hold(Time now) {
+    if (now < hold_at_) return;
+    hold_at_ = now + seconds(0.02);
+    tell(ports_.hold_to_run, mishap_ != Mishap::hold);
+  }
+
+  void meet_mishaps(Time now) {
+    constexpr double kEvery_s = 6;
+    if (mishap_) {
+      if (now >= mishap_over_) end_mishap(now);
+    } else if (mishaps_ < parameters_.mishaps && !is_calm() &&
+               share(misfortune_) < to_seconds(kPeriod) / kEvery_s) {
+      begin_mishap(now);
+    }
+    if (!mishap_ && stopped_ && now >= rearm_at_) {
+      rearm_at_ = now + seconds(1.5);
+      tell(ports_.rearm, true);
+      write("rearmed {:.3f}", time(now));
+    }
+  }
+
+  void begin_mishap(Time now) {
+    ++mishaps_;
+    mishap_ = Mishap(static_cast<int>(3 * share(misfortune_)));
+    mishap_over_ = now + seconds(2 * share(misfortune_));
+    write("mishap {:.3f} {}", time(now), kMishaps[static_cast<int>(*mishap_)]);
+    if (mishap_ == Mishap::stop) tell(ports_.stop, true);
+    if (mishap_ == Mishap::hold) tell(ports_.hold_to_run, false);
+    if (mishap_ == Mishap::power) tell(ports_.power, false);
+  }
+
+  void end_mishap(Time now) {
+    if (mishap_ == Mishap::power) tell(ports_.power, true);
+    mishap_.reset();
+    rearm_at_ = now + seconds(3 * share(misfortune_));
+    write("over {:.3f}", time(now));
+  }
+
+  static void tell(Output<msg::Bool>& output, bool told) {
+    auto loan = output.loan();
+    loan->data_(told);
+    loan.publish();
+  }
+
   void see(const msg::TaskState& state, Time now) {
     met_ = true;
     if (state.answered_() != answered_ || state.answer_() != answer_) {
@@ -188,6 +247,9 @@ class AnyOperator final : public Component {
   }
 
   void see(const msg::MotionStatus& status, Time now) {
+    const bool stopped = status.stage_() == kStopStage;
+    if (stopped != stopped_) write("stopped {:.3f} {}", time(now), stopped ? 1 : 0);
+    stopped_ = stopped;
     const std::pair<std::uint64_t, int> told{status.goal_id_(), status.state_()};
     if (told == told_) return;
     told_ = told;
@@ -228,7 +290,7 @@ class AnyOperator final : public Component {
 
   Parameters parameters_;
   Ports ports_;
-  std::mt19937_64 chance_;
+  std::mt19937_64 chance_, misfortune_;
   std::ofstream chronicle_;
   std::optional<Time> start_;
   bool waits_for_a_question_ = false;
@@ -243,6 +305,10 @@ class AnyOperator final : public Component {
   std::string before_;  // the question before
   Time waits_since_;
   std::pair<std::uint64_t, int> told_{0, -1};
+  bool stopped_ = false;  // the arm, as motion told last
+  std::optional<Mishap> mishap_;
+  std::uint64_t mishaps_ = 0;
+  Time hold_at_, mishap_over_, rearm_at_;
   std::string at_;  // where the arm was written to be
   Time written_;
 };

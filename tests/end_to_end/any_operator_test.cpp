@@ -5,7 +5,7 @@
 // same operator gives the same run, 6. an arm that is stopped stays so, and a rearm moves nothing.
 // ARMATURE_OPERATORS: so many of every system, from number
 // ARMATURE_FIRST_OPERATOR on.
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
@@ -289,7 +289,12 @@ void AnyOperator::expect_end(const OperatedRun& operated) const {
     return;
   }
   if (GetParam().mishaps > 0) {
-    EXPECT_THAT(status, testing::AnyOf("ok", "refused")) << report;
+    // Nobody leads a needle out by hand that has come off its way without power, or makes a lamp
+    // search again.
+    const std::string left = operated.chronicle.task.back().state;
+    const bool is_left = left == "held" || left == "unreachable";
+    EXPECT_TRUE(!GetParam().ends_well || is_left || status == "ok" || status == "refused")
+        << report;
     return;
   }
   constexpr double kEndsWithin_s = 0.5;  // a run that is over, since arms and hands come to rest
@@ -409,6 +414,7 @@ std::vector<System> systems() {
     System stopped = all[i];
     stopped.name = "Stopped" + stopped.name;
     stopped.mishaps = 4;
+    stopped.seeds = std::min(stopped.seeds, 4);
     all.push_back(stopped);
   }
   return all;

@@ -48,7 +48,11 @@ class PursuedGoal {
   std::optional<MotionGoal> outgoing(Time now);
 
   State state() const { return state_; }
-  bool on_its_way() const { return state_ == State::waiting || state_ == State::moving; }
+  /// Also where it goes on, because of a resume, as soon as the arm has come to rest.
+  bool on_its_way() const {
+    const bool goes_on = state_ == State::pausing && resumes_;
+    return state_ == State::waiting || state_ == State::moving || goes_on;
+  }
   /// No goal is pursued: none was set yet, or it was left and no other one set.
   bool left() const;
   /// It is left, and the arm does not slow down from it any more: it may be turned round.
@@ -60,6 +64,8 @@ class PursuedGoal {
   Expected<void> may_move() const;
   /// It has failed because the arm was stopped.
   bool stopped() const { return state_ == State::failed && stopped_; }
+  /// The same before the arm has moved because of it: its step may be asked again.
+  bool stopped_before_it_began() const { return stopped() && !has_moved_; }
   Time done_at() const { return done_at_; }
   const std::string& reason() const { return reason_; }
   /// Of a goal that is done: how many stops of its way lie behind it.

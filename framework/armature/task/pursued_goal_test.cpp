@@ -208,6 +208,18 @@ TEST_F(PausedGoalTest, AnArmThatStillSlowsDownComesToRestBeforeItGoesOn) {
   EXPECT_EQ(goals_.state(), PursuedGoal::State::moving);
 }
 
+TEST_F(PausedGoalTest, OneThatGoesOnOnceTheArmRestsIsOnItsWay) {
+  goals_.set({});
+  sent();
+  hear(Report::executing);
+  goals_.pause();
+  EXPECT_FALSE(goals_.on_its_way());
+  goals_.resume();
+  EXPECT_TRUE(goals_.on_its_way());
+  goals_.pause();
+  EXPECT_FALSE(goals_.on_its_way());
+}
+
 TEST_F(PausedGoalTest, APauseBehindAResumeThatStillWaitsHolds) {
   goals_.set_once(goal_);
   sent();

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "armature/task/obey.hpp"
+
 namespace armature::task::biopsy {
 
 using Eigen::Vector3d;
@@ -173,25 +175,18 @@ Expected<void> Biopsy::hear(const OperatorCommand& command, Time now) {
   if (heading_ == Heading::held && command.word != "back" && command.word != "abort") {
     return armature::refuse("the needle has broken down on its way: back or abort leads it out");
   }
-  const auto word = procedure_.hear(command);
-  if (!word) return tl::unexpected{word.error()};
-  switch (*word) {
-    case OperatorWord::confirm:
-      if (step() == Step::touching) return touch(now);
-      if (const auto clear = may_leave_hand(now); !clear) {
-        procedure_.enter(procedure_.step());
-        return clear;
-      }
-      break;
-    case OperatorWord::pause: goal_.pause(); break;
-    case OperatorWord::resume:
-      goal_.resume();
-      waits_since_ = now;
-      break;
-    case OperatorWord::back: return go_back(now);
-    case OperatorWord::abort: return abort();
-  }
-  return {};
+  const auto obeyed = obey(
+      command, procedure_, goal_, [&] { return go_back(now); }, [&] { return abort(); });
+  if (!obeyed) return obeyed;
+  if (command.word == "resume") waits_since_ = now;
+  return command.word == "confirm" ? begin_confirmed(now) : obeyed;
+}
+
+Expected<void> Biopsy::begin_confirmed(Time now) {
+  if (step() == Step::touching) return touch(now);
+  const auto clear = may_leave_hand(now);
+  if (!clear) procedure_.enter(procedure_.step());
+  return clear;
 }
 
 Expected<void> Biopsy::go_back(Time now) {

@@ -88,6 +88,8 @@ class Biopsy {
   bool stands_where_it_began() const { return heading_ == Heading::none && place_ == 0; }
   /// The needle has left where the way began, and has not come back.
   bool has_set_out() const { return way_stops_ > 0 || goal_.has_moved(); }
+  /// The step that was confirmed just now.
+  Expected<void> begin_confirmed(Time now);
   Expected<void> go_back(Time now);
   Expected<void> abort();
   /// Along the way, once the arm rests.

@@ -402,6 +402,7 @@ TEST_F(OperatedBiopsyTest, ANeedleThatWaitsForTheOperatorIsNotLedOutByAnArmThatI
   tell_resting("stop");
   EXPECT_EQ(say("back"), "the arm is stopped: rearm it first");
   EXPECT_EQ(say("abort"), "the arm is stopped: rearm it first");
+  EXPECT_EQ(say("confirm", "entry"), "the arm is stopped: rearm it first");
   EXPECT_EQ(asked(), "entry") << "nothing has changed";
   expect_no_goal();
   tell_resting("");
@@ -427,6 +428,7 @@ TEST_F(OperatedBiopsyTest, AWayThatIsRefusedBeforeAnythingMovedIsAskedForAgain) 
   expect_no_goal();
   EXPECT_EQ(asked(), "approach");
   EXPECT_EQ(task_->trouble(), "stop: give it again to go on");
+  fail("accept", "the arm was stopped and rearmed since");  // as it is told from then on
   EXPECT_EQ(say("confirm", "approach"), "");
   const MotionGoal second = sent();
   EXPECT_EQ(second.mode, MotionMode::planned);

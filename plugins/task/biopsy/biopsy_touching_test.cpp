@@ -307,6 +307,8 @@ TEST_F(TouchedBiopsyTest, AnArmThatIsInNoHandTouchesNothing) {
   follows_ = false;
   hear(GoalReport::State::failed, "stop", "stopped until it is rearmed");
   run(0.6);
+  EXPECT_EQ(say("confirm", "marker 1"), "the arm is stopped: rearm it first");
+  hear(GoalReport::State::failed, "accept", "the arm was stopped and rearmed since");
   EXPECT_EQ(say("confirm", "marker 1"), "the arm is in no hand: its tip touches nothing");
   EXPECT_EQ(asked(), "marker 1");
 }

@@ -92,7 +92,9 @@ void Implant::hear(const GoalReport& report, Time now) {
                              : out ? "withdrawal"
                                    : pass().name) +
                             ": " + goal_.reason();
-    return above && !under_way() ? refuse_approach(why, now) : refuse(why);
+    if (above && !under_way()) return refuse_approach(why, now);
+    if (at_sites() && pass().asks && goal_.stopped_before_it_began()) return ask_again(why, now);
+    return refuse(why);
   }
   if (there && above) come_to_pass(0, now);
   if (there && out && homing_) return finish_round(now);
@@ -220,12 +222,20 @@ void Implant::refuse_approach(const std::string& why, Time now) {
   trouble_ = why;
 }
 
+void Implant::ask_again(const std::string& why, Time now) {
+  if (procedure_.auto_confirm()) return refuse(why);
+  come_to_pass(pass_, now);
+  trouble_ = why;
+}
+
 void Implant::set_out(Time now) {
   if (!procedure_.may_act()) return;
   trouble_.clear();
   const SiteWay& way = rounds_[round_].way;
   switch (phase_) {
-    case Phase::approaching: homing_ = false; return goal_.set_once({.pose = way.above.front()});
+    case Phase::approaching:
+      homing_ = has_left();  // not back along the last way, which may be that out of a bore
+      return goal_.set_once({.pose = way.above.front()});
     case Phase::withdrawing: return lead_out();
     default:
       if (pass().turns) {

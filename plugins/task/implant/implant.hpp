@@ -99,7 +99,7 @@ class Implant {
   void come_to_pass(std::size_t pass, Time now);
   /// For the approach, or for the pass, once it may.
   void set_out(Time now);
-  /// Once the arm rests.
+  /// Once the arm rests, or while it goes out.
   void turn_back();
   /// As slowly as the implant went in, to rest at the mouth of the bore, where its thread ends.
   void turn_out();
@@ -113,6 +113,8 @@ class Implant {
   void enter_approach(Time now);
   /// Of one that has moved nothing: where there is an operator, he is asked again.
   void refuse_approach(const std::string& why, Time now);
+  /// The same of a site, or of a bore that an implant goes into.
+  void ask_again(const std::string& why, Time now);
   void go_on(Time now);
   void finish_round(Time now);
   bool placing() const { return round_ == 1; }

@@ -8,7 +8,8 @@ namespace {
 
 class OperatedImplantTest : public ImplantTest {
  protected:
-  OperatedImplantTest() {
+  OperatedImplantTest() { begin_again(); }
+  void begin_again() {
     Parameters parameters = quick();
     parameters.auto_confirm = false;
     task_ = Implant{parameters, med7(), file_tool_};
@@ -146,6 +147,41 @@ TEST_F(OperatedImplantTest, AbortedWhenItsSecondApproachIsAskedItGoesToWhereItCa
   EXPECT_LT((tool() - came_from).norm(), 1e-9);
 }
 
+/// Its last way was that out of the bore, which is not for going back along.
+TEST_F(OperatedImplantTest, AbortedOnItsSecondApproachItGoesToWhereItCameFrom) {
+  enum class How { refused, while_planned, under_way };
+  for (const How how : {How::refused, How::while_planned, How::under_way}) {
+    SCOPED_TRACE(static_cast<int>(how));
+    begin_again();
+    const Vector3d came_from = tool();
+    confirm("approach");
+    run_until_asked();
+    before_ = tool();
+    confirm("site 1");
+    stop_half_way();
+    EXPECT_EQ(say("back"), "");
+    run_until_asked();
+    EXPECT_EQ(say("back"), "");
+    go_to(Phase::approaching);
+    const std::size_t until_then = goals_.size();
+    begins_ = how == How::under_way;
+    confirm("approach");
+    done_ = 0;
+    if (how == How::refused) {
+      task_.hear({.goal_id = goals_.back().id, .state = Report::failed, .stage = "ik"}, now());
+      begins_ = true;
+      ASSERT_EQ(asked(), "approach");
+    }
+    begins_ = true;
+    EXPECT_EQ(say("abort"), "");
+    go_to(Phase::aborted);
+    EXPECT_LT((tool() - came_from).norm(), 1e-9);
+    for (std::size_t i = until_then; i < goals_.size(); ++i) {
+      EXPECT_NE(goals_[i].mode, MotionMode::retrace);
+    }
+  }
+}
+
 TEST_F(OperatedImplantTest, AnApproachThatWasLeftBackIsNotGoneOnWithAfterAPause) {
   confirm("approach");
   EXPECT_EQ(say("back"), "");
@@ -279,6 +315,43 @@ TEST_F(OperatedImplantTest, AJawThatMovesIsSeenWhileItIsPausedToo) {
   chain_.tracker_T_patient = chain_.tracker_T_patient * Eigen::Translation3d{0.01, 0, 0};
   wait(0.5);
   EXPECT_EQ(task_.phase(), Phase::held);
+}
+
+TEST_F(OperatedImplantTest, HeldWhileItSlowsDownForAPauseThatWasTakenBackItDoesNotGoOn) {
+  confirm("approach");
+  confirm("site 1");
+  EXPECT_EQ(say("pause"), "");
+  done_ = 0;
+  begins_ = false;
+  step();
+  const std::uint64_t pause = goals_.back().id;
+  EXPECT_EQ(say("resume"), "");
+  chain_.tracker_T_patient = chain_.tracker_T_patient * Eigen::Translation3d{0.01, 0, 0};
+  wait(0.5);
+  ASSERT_EQ(task_.phase(), Phase::held);
+  task_.hear({.goal_id = pause, .state = Report::done}, now());
+  wait(0.5);
+  EXPECT_EQ(goals_.back().mode, MotionMode::hold);
+}
+
+TEST_F(OperatedImplantTest, ASiteThatIsRefusedBecauseOfAStopBeforeItIsAskedForAgain) {
+  confirm("approach");
+  run_until_asked();
+  begins_ = false;
+  confirm("site 1");
+  task_.hear({.goal_id = goals_.back().id,
+              .state = Report::failed,
+              .stage = "stop",
+              .reason = "the arm was stopped and rearmed since the goal before"},
+             now());
+  EXPECT_EQ(asked(), "site 1");
+  EXPECT_EQ(task_.trouble(), "site 1: stop: the arm was stopped and rearmed since the goal before");
+  EXPECT_EQ(say("confirm", "site 1"), "the arm is stopped: rearm it first");
+  task_.hear({.goal_id = goals_.back().id, .state = Report::failed, .stage = "accept"}, now());
+  begins_ = true;
+  confirm("site 1");
+  run_until_asked();
+  EXPECT_EQ(asked(), "site 2");
 }
 
 TEST_F(OperatedImplantTest, ADrillThatBreaksDownInTheBoneIsHeldUntilAnAbortLeadsItOut) {

@@ -68,6 +68,7 @@ TEST_F(OperatedLampTest, AfterAStopInTheSearchItAsksForNoFaceThatIsGone) {
   run(2);
   ASSERT_EQ(task_.phase(), Phase::no_view);
   rearm();
+  tell_rearmed();
   lamp_.orientation = Direction{Eigen::Vector3d::UnitX()};
   present_ = true;
   run(2);
@@ -207,6 +208,23 @@ TEST_F(OperatedLampTest, AbortedAtTheFaceItGoesBackToTheViewFromWhichItCame) {
   run(10);
   EXPECT_EQ(goals_.size(), goals);
   EXPECT_EQ(say("back"), "the procedure is over");
+}
+
+TEST_F(OperatedLampTest, AnAbortThatIsPausedAndResumedBeforeTheLampRestsEndsAtTheView) {
+  confirm("search");
+  run(20);
+  const ToolPose view = goals_.back().pose;
+  EXPECT_EQ(say("confirm", "alignment"), "");
+  ASSERT_TRUE(run_until(Phase::holding, 20));
+  EXPECT_EQ(say("abort"), "");
+  tick();
+  EXPECT_EQ(say("pause"), "");
+  tick();
+  EXPECT_EQ(say("resume"), "");
+  tick();
+  EXPECT_EQ(task_.phase(), Phase::aborting) << "it is not over while the lamp goes there";
+  ASSERT_TRUE(run_until(Phase::aborted, 10));
+  EXPECT_EQ(lamp_.position, view.position);
 }
 
 TEST_F(OperatedLampTest, WhileTheLampIsStoppedBackAndAbortAreRefused) {

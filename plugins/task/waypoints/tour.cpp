@@ -49,6 +49,10 @@ void Tour::hear(const GoalReport& report, Time now) {
     if (there) end(Phase::aborted, "");
     return;
   }
+  if (failed && goal_.stopped_before_it_began() && !procedure_.auto_confirm()) {
+    trouble_ = goal_.reason();
+    return come_to(number_);
+  }
   if (failed) {
     return end(Phase::refused, fmt::format("waypoint {}: {}", number_ + 1, goal_.reason()));
   }
@@ -66,7 +70,10 @@ std::optional<MotionGoal> Tour::outgoing_goal(Time now) {
     if (phase_ == Phase::aborting && goal_.is_free()) goal_.retrace(false);
     if (phase_ == Phase::resting && now - goal_.done_at() >= seconds(parameters_.rest)) leave(now);
     const bool sets_out = phase_ == Phase::moving && procedure_.may_act() && goal_.left();
-    if (sets_out) goal_.set({.pose = waypoint()});
+    if (sets_out) {
+      trouble_.clear();
+      goal_.set({.pose = waypoint()});
+    }
   }
   return goal_.outgoing(now);
 }

@@ -161,20 +161,43 @@ TEST_F(OperatedTourTest, AnArmThatIsStoppedWhileItSlowsDownForAnAbortIsNotLedBac
   EXPECT_EQ(tour_.trouble(), "the way back failed: stop: x");
 }
 
-TEST_F(OperatedTourTest, WhileTheArmIsStoppedBackAndAbortAreRefused) {
+TEST_F(OperatedTourTest, WhileTheArmIsStoppedNothingThatMovesItIsObeyed) {
   follow(tour_, 1);
   say("confirm", "waypoint 1");
   follow(tour_, 2);
   say("confirm", "waypoint 2");
   follow(tour_, 2);
+  EXPECT_EQ(say("pause"), "");
   GoalReport resting{.goal_id = id_, .state = GoalReport::State::done, .stage = "stop"};
   tour_.hear(resting, now_);
   EXPECT_EQ(say("back"), "the arm is stopped: rearm it first");
   EXPECT_EQ(say("abort"), "the arm is stopped: rearm it first");
+  EXPECT_EQ(say("resume"), "the arm is stopped: rearm it first");
   EXPECT_TRUE(follow(tour_, 1).empty());
   resting.stage.clear();
   tour_.hear(resting, now_);
   EXPECT_EQ(say("abort"), "");
+}
+
+TEST_F(OperatedTourTest, AsksAgainForAWaypointThatWasRefusedBecauseOfAStopBefore) {
+  follow(tour_, 1);
+  say("confirm", "waypoint 1");
+  follow(tour_, 2);
+  EXPECT_EQ(say("confirm", "waypoint 2"), "");
+  const auto goal = tour_.outgoing_goal(now_);
+  ASSERT_TRUE(goal);
+  tour_.hear({.goal_id = goal->id,
+              .state = GoalReport::State::failed,
+              .stage = "stop",
+              .reason = "the arm was stopped and rearmed since the goal before"},
+             now_);
+  EXPECT_TRUE(follow(tour_, 2).empty());
+  EXPECT_EQ(tour_.phase(), Tour::Phase::asking);
+  EXPECT_EQ(tour_.trouble(), "stop: the arm was stopped and rearmed since the goal before");
+  tour_.hear({.goal_id = goal->id, .state = GoalReport::State::failed, .stage = "accept"}, now_);
+  EXPECT_EQ(say("confirm", "waypoint 2"), "");
+  EXPECT_EQ(follow(tour_, 2), std::vector<double>{2});
+  EXPECT_EQ(tour_.trouble(), "");
 }
 
 TEST_F(OperatedTourTest, AbortedBeforeAnythingMovedItIsOver) {

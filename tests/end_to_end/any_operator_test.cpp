@@ -5,12 +5,14 @@
 // same operator gives the same run, 6. an arm that is stopped stays so, and a rearm moves nothing.
 // ARMATURE_OPERATORS: so many of every system, from number
 // ARMATURE_FIRST_OPERATOR on.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <random>
 #include <stdexcept>
 
 #include "armature/robot/kinematics/kinematics.hpp"
@@ -40,6 +42,7 @@ struct System {
   int seeds = 8;
   bool leads_out = false;  // an abort: to where the approach began
   int mishaps = 0;
+  bool tracker_fails = false;  // now and then, and what it sees is knocked
 };
 
 std::ostream& operator<<(std::ostream& out, const System& system) { return out << system.name; }
@@ -54,6 +57,35 @@ struct OperatedRun {
   OperatorChronicle chronicle;
 };
 
+/// Bodies that are hidden for a while, a jaw that moves and a tracker that is knocked aside.
+std::vector<std::string> tracker_settings(int seed) {
+  std::mt19937_64 chance(seed);
+  const auto up_to = [&](double most) {
+    return most * static_cast<double>(chance() >> 11) * 0x1p-53;
+  };
+  constexpr double kRun_s = 150;
+  const std::string params = "components.tracker.params.";
+  std::vector<std::string> settings;
+  for (const char* body : {"flange", "jaw"}) {
+    std::string times;
+    double from_s = 20;  // the tools are turned in the hand before
+    for (auto left = static_cast<int>(up_to(4)); left > 0; --left) {
+      from_s += up_to(kRun_s / 4);
+      const double until_s = from_s + up_to(1.5);
+      times += fmt::format("{}{:.3f}, {:.3f}", times.empty() ? "" : ", ", from_s, until_s);
+      from_s = until_s;
+    }
+    settings.push_back(fmt::format("{}{}_hidden_s=[{}]", params, body, times));
+  }
+  for (const char* what : {"jaw", "stand"}) {
+    if (up_to(1) < 0.5) continue;
+    settings.push_back(fmt::format("{}{}_shift_mm=[{:.3f}, {:.3f}, {:.3f}]", params, what,
+                                   up_to(4) - 2, up_to(4) - 2, up_to(4) - 2));
+    settings.push_back(fmt::format("{}{}_shift_at_s={:.3f}", params, what, up_to(kRun_s)));
+  }
+  return settings;
+}
+
 OperatedRun run_with(const System& system, int seed) {
   static const int kDomain = unique_dds_domain();  // one run at a time
   const TemporaryFolder folder;
@@ -67,6 +99,10 @@ OperatedRun run_with(const System& system, int seed) {
                         {params + "file=" + file, params + "seed=" + std::to_string(seed),
                          params + "aborts=" + (aborts ? "true" : "false"),
                          params + "mishaps=" + std::to_string(system.mishaps)});
+  if (system.tracker_fails) {
+    const auto settings = tracker_settings(seed);
+    start.settings.insert(start.settings.end(), settings.begin(), settings.end());
+  }
   start.options.environment["ARMATURE_PLUGIN_PATH"] = TEST_PLUGINS;
   OperatedRun operated{.run = run_deployment(start), .chronicle = {}};
   if (!std::filesystem::exists(file)) throw std::runtime_error{operated.run.text()};
@@ -169,7 +205,8 @@ void AnyOperator::expect_rest_after_an_abort(const OperatorChronicle& run) const
   EXPECT_LE(moved(run, aborted_s + system.stops_within_s, run.end_s), 1e-6);
   const auto approach = std::ranges::find_if(
       run.task, [](const Task& task) { return task.asks && task.step == "approach"; });
-  if (!system.leads_out || approach == run.task.end()) return;
+  const bool led_out = system.leads_out && (system.mishaps == 0 || aborted != run.task.end());
+  if (!led_out || approach == run.task.end()) return;
   const auto at = std::ranges::upper_bound(run.arm, approach->time_s, {}, &Arm::time_s);
   ASSERT_NE(at, run.arm.begin());
   const Vector3d began = tool(*std::prev(at)).translation();
@@ -416,6 +453,12 @@ std::vector<System> systems() {
     stopped.mishaps = 4;
     stopped.seeds = std::min(stopped.seeds, 4);
     all.push_back(stopped);
+    if (all[i].body != Body::jaw) continue;
+    System blinded = all[i];
+    blinded.name = "Blinded" + blinded.name;
+    blinded.tracker_fails = true;
+    blinded.ends_well = false;
+    all.push_back(blinded);
   }
   return all;
 }

@@ -189,9 +189,10 @@ class AnyOperator final : public Component {
 
   void meet_mishaps(Time now) {
     constexpr double kEvery_s = 6;
+    const bool asked = !question_.empty() || !before_.empty();
     if (mishap_) {
       if (now >= mishap_over_) end_mishap(now);
-    } else if (mishaps_ < parameters_.mishaps && !is_calm() &&
+    } else if (asked && mishaps_ < parameters_.mishaps && !is_calm() &&
                share(misfortune_) < to_seconds(kPeriod) / kEvery_s) {
       begin_mishap(now);
     }

@@ -196,7 +196,8 @@ class AnyOperator final : public Component {
                share(misfortune_) < to_seconds(kPeriod) / kEvery_s) {
       begin_mishap(now);
     }
-    if (!mishap_ && stopped_ && now >= rearm_at_) {
+    if (!mishap_ && (stopped_ || rearms_) && now >= rearm_at_) {
+      rearms_ = false;
       rearm_at_ = now + seconds(1.5);
       tell(ports_.rearm, true);
       write("rearmed {:.3f}", time(now));
@@ -216,6 +217,7 @@ class AnyOperator final : public Component {
   void end_mishap(Time now) {
     if (mishap_ == Mishap::power) tell(ports_.power, true);
     mishap_.reset();
+    rearms_ = true;  // also where nothing was moved yet, and motion calls nothing stopped
     rearm_at_ = now + seconds(3 * share(misfortune_));
     write("over {:.3f}", time(now));
   }
@@ -248,10 +250,11 @@ class AnyOperator final : public Component {
   }
 
   void see(const msg::MotionStatus& status, Time now) {
-    const bool stopped = status.stage_() == kStopStage;
+    const std::pair<std::uint64_t, int> told{status.goal_id_(), status.state_()};
+    // A goal that is refused because of a stop before it does not say that the arm is stopped now.
+    const bool stopped = status.stage_() == kStopStage && (stopped_ || told == told_);
     if (stopped != stopped_) write("stopped {:.3f} {}", time(now), stopped ? 1 : 0);
     stopped_ = stopped;
-    const std::pair<std::uint64_t, int> told{status.goal_id_(), status.state_()};
     if (told == told_) return;
     told_ = told;
     write("motion {:.3f} {} {}", time(now), told.first, told.second);
@@ -307,6 +310,7 @@ class AnyOperator final : public Component {
   Time waits_since_;
   std::pair<std::uint64_t, int> told_{0, -1};
   bool stopped_ = false;  // the arm, as motion told last
+  bool rearms_ = false;   // once, behind a mishap
   std::optional<Mishap> mishap_;
   std::uint64_t mishaps_ = 0;
   Time hold_at_, mishap_over_, rearm_at_;

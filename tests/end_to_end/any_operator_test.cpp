@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operators who say anything at any time, by where the arm truly is: 1. it rests while the task
-// asks or is paused, 2. after an abort it comes to where it shall and moves no more, 3. a tool in a
-// body goes along its line only, 4. every word is answered, and the run comes to its end, 5. the
-// same operator gives the same run, 6. an arm that is stopped stays so, and a rearm moves nothing.
-// ARMATURE_OPERATORS: so many of every system, from number
-// ARMATURE_FIRST_OPERATOR on.
+// Operators who say anything at any time, and arms that something stops meanwhile, by where the arm
+// truly is: 1. it rests while the task asks or is paused, 2. after an abort it comes to where it
+// shall and moves no more, 3. a tool in a body goes along its line only, 4. every word is answered,
+// and the run comes to its end, 5. the same operator gives the same run, 6. an arm that is stopped
+// stays so, and a rearm moves nothing. ARMATURE_OPERATORS: so many of every system, from number
+// ARMATURE_FIRST_OPERATOR on; `tools/test --full` has others every day.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 

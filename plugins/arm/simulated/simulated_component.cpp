@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
-#include <cstddef>
 #include <string>
 #include <utility>
 
@@ -29,18 +28,6 @@ JointVector home_of(const RobotModel& model) {
   auto home = model.to_independent(*model.home());
   if (!home) throw SetupError("home of robot " + model.name() + ": " + home.error().text);
   return *home;
-}
-
-ReasonText describe(const LimitExcess& excess, const RobotModel& model, const char* who) {
-  static constexpr const char* kQuantity[] = {"position", "velocity", "acceleration"};
-  static constexpr const char* kPerTime[] = {"", "/s", "/s2"};
-  const auto quantity = static_cast<std::size_t>(excess.quantity);
-  const Joint& joint =
-      model.joints()[static_cast<std::size_t>(model.independent_joint(excess.joint))];
-  return ReasonText::format("the {} asks joint {} for {} {:.6g} {}{}, limit {:.6g}", who,
-                            joint.name, kQuantity[quantity], excess.wanted,
-                            joint.type == Joint::Type::prismatic ? "m" : "rad", kPerTime[quantity],
-                            excess.limit);
 }
 
 }  // namespace
@@ -149,7 +136,7 @@ class SimulatedArmComponent : public Component {
     shown_why_ = why;
     if (trouble == Trouble::none) return healthy();
     if (!why.empty()) return degraded(why);
-    degraded(describe(*arm_.excess(), model_, guided_ ? "hand" : "command"));
+    degraded(describe(*arm_.excess(), model_, guided_ ? "the hand" : "the command"));
   }
 
   const char* operating_state() const {

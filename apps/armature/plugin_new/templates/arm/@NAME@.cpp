@@ -3,11 +3,11 @@
 
 #include "armature/kinds/command_watch.hpp"
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/set_point.hpp"
 #include "armature/kinds/setup_robot.hpp"
-#include "armature/robot/trajectories/short_trajectory.hpp"
 #include "armature/runtime/component/component.hpp"
-#include "armature/runtime/plugins/plugin.hpp"
 #include "armature/runtime/component/setup.hpp"
+#include "armature/runtime/plugins/plugin.hpp"
 #include "@TARGET@_parameters.hpp"  // made from plugin.yaml
 #include "@TARGET@_ports.hpp"
 
@@ -33,8 +33,8 @@ class Device {
 
 }  // namespace
 
-/// Hands commands to the arm, and tells where it is. When they cease it ramps down by itself, and
-/// waits for one that comes back to where it stands.
+/// Hands commands to the arm within its limits, and tells where it is. When they cease it ramps down
+/// by itself, and waits for one that comes back to where it stands.
 class @CLASS@Arm final : public Component {
  public:
   explicit @CLASS@Arm(Setup& setup)
@@ -43,19 +43,20 @@ class @CLASS@Arm final : public Component {
         robot_{robot_of(setup)},
         device_{resting_position(robot_)},
         watch_{robot_, seconds(parameters_.command_timeout), seconds(1 / parameters_.rate)},
+        set_point_{robot_, seconds(parameters_.command_timeout), seconds(1 / parameters_.rate),
+                   device_.position()},
         ports_{setup} {
     setup.activate_every(seconds(1 / parameters_.rate));
   }
 
   void step(Time now) override {
     if (ports_.servo_jp.fresh()) read(*ports_.servo_jp.latest());
-    const bool follows = watch_.follows(now, command_, device_.position());
-    if (follows) {
-      ramp_.reset();
-      if (ports_.servo_jp.fresh() && refusal_.empty()) device_.move(command_->q, command_->v);
-    } else if (command_) {
-      ramp_down(now);
-    }
+    // Until it is commanded, and while it follows nothing, the arm is to be where it is.
+    const bool driven = command_ && is_enabled();
+    if (!driven) set_point_.be_at(device_.position(), device_.velocity());
+    const bool follows = watch_.follows(now, command_, set_point_.position());
+    set_point_.step(now, driven && follows ? command_ : std::nullopt);
+    if (driven) device_.move(set_point_.position(), set_point_.velocity());
     auto measured = ports_.measured_js.loan();
     write_all_joints(robot_, device_.position(), device_.velocity(), now, *measured);
     measured.publish();
@@ -63,7 +64,9 @@ class @CLASS@Arm final : public Component {
     // While it waits for a command it holds, and motion's reference comes to where it rests.
     state->data_() = follows || !is_enabled() ? device_.operating_state() : "HOLDING";
     state.publish();
-    const ReasonText& trouble = refusal_.empty() ? watch_.why() : refusal_;
+    const ReasonText& trouble = !refusal_.empty()       ? refusal_
+                                : !watch_.why().empty() ? watch_.why()
+                                                        : set_point_.why();
     if (trouble.empty()) {
       healthy();
     } else {
@@ -75,14 +78,12 @@ class @CLASS@Arm final : public Component {
   bool stopped() const override { return device_.velocity().isZero(1e-3); }
 
  private:
-  /// A command that has another length, is not finite or leaves the limits is none: the one before
-  /// grows old.
+  /// A command that has another length, is not finite or is far beyond a limit is none: the one
+  /// before grows old.
   void read(const msg::JointState& message) {
     ServoCommand command;
     refusal_ = read_servo_command(robot_, message, command);
-    if (refusal_.empty() && !robot_.within_limits(command.q)) {
-      refusal_ = "it leaves the joint limits";
-    }
+    if (refusal_.empty()) refusal_ = set_point_.far_beyond(command.q);
     if (refusal_.empty()) {
       command_ = command;
     } else {
@@ -90,22 +91,14 @@ class @CLASS@Arm final : public Component {
     }
   }
   bool is_enabled() const { return std::string_view{device_.operating_state()} == "ENABLED"; }
-  void ramp_down(Time now) {
-    if (!ramp_) {
-      const JointState from{device_.position(), device_.velocity(), 0 * device_.velocity()};
-      ramp_ = short_stop_from(from, robot_.max_velocity(), robot_.max_acceleration(), now, 0);
-    }
-    const JointState at = ramp_->view().at(now);
-    device_.move(at.q, at.v);
-  }
 
   Parameters parameters_;
   RobotModel robot_;
   Device device_;
   CommandWatch watch_;
+  SetPoint set_point_;
   Ports ports_;
   std::optional<ServoCommand> command_;  // the last good one
-  std::optional<ShortTrajectory> ramp_;
   ReasonText refusal_;
 };
 

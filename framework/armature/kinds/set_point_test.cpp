@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a driver does with a stream of commands: 1. what can be followed is followed exactly, 2.
+// what asks for more is followed within the limits, 3. what ceases is carried on, and ramped down.
+#include "armature/kinds/set_point.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <utility>
+
+#include "armature/robot/trajectories/quintic.hpp"
+
+namespace armature {
+namespace {
+
+RobotModel one_joint(double limit = 1, double max_acceleration = 8) {
+  Joint joint;
+  joint.name = "j1";
+  joint.lower = -limit;
+  joint.upper = limit;
+  joint.max_velocity = 2.5;
+  joint.max_acceleration = max_acceleration;
+  return {{"one_joint",
+           RobotModel::Convention::standard,
+           {joint},
+           {{.name = "tool", .parent_joint = 0}},
+           FrameId{0},
+           std::nullopt,
+           std::nullopt}};
+}
+
+JointVector value(double v) { return JointVector::Constant(1, v); }
+
+class SetPointTest : public ::testing::Test {
+ protected:
+  /// One step of 1 ms; velocity and acceleration are checked from the positions themselves.
+  void step(std::optional<ServoCommand> command) {
+    now_ = now_ + seconds(0.001);
+    arm_.step(now_, command);
+    const double q = arm_.position()[0];
+    const double v = (q - last_q_) / 0.001;
+    EXPECT_LE(std::abs(v), 2.5 + 1e-6);
+    EXPECT_LE(std::abs(v - last_v_) / 0.001, 8 + 1e-3);
+    EXPECT_LE(std::abs(q), 1);
+    last_q_ = q;
+    last_v_ = v;
+  }
+  ServoCommand command(double q, double v = 0) const {
+    return {now_ + seconds(0.001), value(q), value(v)};
+  }
+
+  RobotModel model_ = one_joint();
+  SetPoint arm_{model_, seconds(0.1), seconds(0.001), value(0)};
+  Time now_;
+  double last_q_ = 0, last_v_ = 0;
+};
+
+TEST_F(SetPointTest, HoldsAtHomeWithoutACommand) {
+  for (int k = 0; k < 10; ++k) step(std::nullopt);
+  EXPECT_EQ(arm_.position(), value(0));
+}
+
+TEST_F(SetPointTest, AfterAStandstillOfItsOwnItCatchesUpWithinItsLimits) {
+  constexpr double kSpeed = 0.3;
+  const auto on_the_way = [&] {
+    return ServoCommand{now_, value(kSpeed * to_seconds(now_ - Time{})), value(kSpeed)};
+  };
+  double q = 0;
+  const auto next = [&](double passed_s, const ServoCommand& command) {
+    now_ = now_ + seconds(passed_s);
+    arm_.step(now_, command);
+    return std::exchange(q, arm_.position()[0]);
+  };
+  for (int k = 0; k < 1000; ++k) next(0.001, on_the_way());
+  const ServoCommand last = on_the_way();
+  next(0.15, last);
+  for (int k = 0; k < 1000; ++k) {
+    const double before = next(0.001, on_the_way());
+    ASSERT_LE(std::abs(q - before) / 0.001, 2.5 + 1e-6) << k;
+  }
+  EXPECT_NEAR(q, on_the_way().q[0], 1e-3) << "it is with the commands again";
+}
+
+TEST_F(SetPointTest, ExecutesAReachableReferenceExactly) {
+  const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
+  for (int k = 1; k <= 1200; ++k) {
+    const double t = 0.001 * k;
+    step(command(move.position(t), move.velocity(t)));
+    ASSERT_EQ(arm_.position()[0], move.position(t));
+    ASSERT_FALSE(arm_.excess());
+  }
+}
+
+TEST(SetPoint, DoesNotTakeTheRoundingOfPositionsForAnAcceleration) {
+  constexpr double kFar = 4.5, kSlow = 0.01;  // from there, with the limit itself
+  const RobotModel model = one_joint(5, kSlow);
+  SetPoint arm{model, seconds(0.1), seconds(0.001), value(-kFar)};
+  for (int k = 1; k <= 20000; ++k) {
+    const double t = 0.001 * k;
+    const double q = kSlow * t * t / 2 - kFar;
+    const Time now = Time{} + seconds(t);
+    arm.step(now, ServoCommand{now, value(q), value(kSlow * t)});
+    ASSERT_FALSE(arm.excess()) << "after " << t << " s: " << arm.excess()->wanted;
+    ASSERT_EQ(arm.position()[0], q);
+  }
+}
+
+TEST_F(SetPointTest, FollowsAJumpWithinLimitsAndTellsTheNumber) {
+  step(command(0));
+  step(command(0.5));
+  ASSERT_TRUE(arm_.excess());
+  EXPECT_EQ(arm_.excess()->quantity, LimitExcess::Quantity::velocity);
+  EXPECT_NEAR(arm_.excess()->wanted, 500, 1e-6);
+  EXPECT_EQ(arm_.excess()->limit, 2.5);
+  for (int k = 0; k < 1000; ++k) step(command(0.5));
+  EXPECT_FALSE(arm_.excess());
+  EXPECT_EQ(arm_.position()[0], 0.5);
+}
+
+TEST_F(SetPointTest, StopsAtThePositionLimit) {
+  for (int k = 0; k < 2000; ++k) step(command(3));
+  ASSERT_TRUE(arm_.excess());
+  EXPECT_EQ(arm_.excess()->quantity, LimitExcess::Quantity::position);
+  EXPECT_NEAR(arm_.position()[0], 1, 1e-3);
+}
+
+TEST_F(SetPointTest, NeverExceedsLimitsWhateverIsCommanded) {
+  std::mt19937 random{7};
+  SCOPED_TRACE("seed 7");
+  std::uniform_real_distribution<double> position{-1.5, 1.5}, velocity{-4, 4};
+  ServoCommand wild = command(0);
+  for (int k = 0; k < 20000; ++k) {
+    if (k % 50 == 0) wild = command(position(random), velocity(random));
+    wild.stamp = now_ + seconds(0.001);
+    step(wild);
+  }
+}
+
+TEST_F(SetPointTest, RampsDownAndHoldsWhenThereIsNoCommandAnyMore) {
+  const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
+  for (int k = 1; k <= 400; ++k) {
+    step(command(move.position(0.001 * k), move.velocity(0.001 * k)));
+  }
+  EXPECT_GT(arm_.velocity()[0], 0.5);
+  for (int k = 0; k < 500; ++k) step(std::nullopt);
+  EXPECT_EQ(arm_.velocity()[0], 0);
+  const double held = arm_.position()[0];
+  for (int k = 0; k < 100; ++k) step(std::nullopt);
+  EXPECT_EQ(arm_.position()[0], held);
+}
+
+TEST_F(SetPointTest, CommandsThatCeaseBeforeALimitLeaveTheJointTheWayToStop) {
+  const Quintic move = Quintic::between({0, 0, 0}, {1, 0, 0}, 0.85);
+  for (int last = 50; last < 850; last += 50) {
+    arm_.be_at(value(0), value(0));
+    last_q_ = last_v_ = 0;
+    ServoCommand newest = command(0);
+    for (int k = 1; k <= last + 100; ++k) {
+      const double t = 0.001 * k;
+      if (k <= last) newest = command(move.position(t), move.velocity(t));
+      step(newest);
+    }
+    for (int k = 0; k < 500; ++k) step(std::nullopt);
+    EXPECT_EQ(arm_.velocity()[0], 0) << "ceased after " << last << " ms";
+  }
+}
+
+TEST(SetPoint, AJointThatStandsBeyondALimitComesBackButGoesNoFurther) {
+  const RobotModel model = one_joint();
+  SetPoint arm{model, seconds(0.1), seconds(0.001), value(1.01)};
+  Time now;
+  const auto to = [&](double q) {
+    now = now + seconds(0.001);
+    arm.step(now, ServoCommand{now, value(q), value(0)});
+  };
+  to(1.01);
+  EXPECT_EQ(arm.position()[0], 1.01);
+  EXPECT_FALSE(arm.excess());
+  for (int k = 0; k < 100; ++k) to(1.0105);
+  EXPECT_EQ(arm.position()[0], 1.01);
+  EXPECT_EQ(arm.excess()->quantity, LimitExcess::Quantity::position);
+  EXPECT_EQ(arm.far_beyond(value(1.0105)).view(), "");
+  EXPECT_EQ(arm.far_beyond(value(1.02)).view(),
+            "it asks joint j1 for position 1.02 rad, limit 1.01");
+  for (int k = 0; k < 1000; ++k) to(0.99);
+  EXPECT_EQ(arm.position()[0], 0.99);
+  EXPECT_EQ(arm.far_beyond(value(1.01)).view(), "it asks joint j1 for position 1.01 rad, limit 1")
+      << "it is back";
+}
+
+TEST(SetPoint, CarriesACommandOnForNoLongerThanItsTimeout) {
+  const RobotModel model = one_joint();
+  SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};
+  const auto at = [](double t) { return Time{} + seconds(t); };
+  arm.step(at(0.001), ServoCommand{at(0.001), value(0), value(0)});
+  arm.step(at(0.101), ServoCommand{at(0.101), value(0.02), value(0.4)});
+  arm.step(at(0.901), ServoCommand{at(0.101), value(0.02), value(0.4)});  // paused itself
+  EXPECT_LE(arm.position()[0], 0.02 + 0.4 * 0.1 + 1e-9);
+}
+
+TEST(SetPoint, YieldsToAHandWithinItsLimitsOfPositionAndVelocity) {
+  const RobotModel model = one_joint();
+  SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};
+  Time now;
+  const auto guide = [&](double q) { arm.guide(now = now + seconds(0.001), value(q)); };
+  guide(0.002);
+  EXPECT_EQ(arm.position()[0], 0.002) << "2 rad/s at once: a hand is strong";
+  EXPECT_NEAR(arm.velocity()[0], 2, 1e-12);
+  EXPECT_FALSE(arm.excess());
+  guide(0.5);
+  EXPECT_NEAR(arm.position()[0], 0.0045, 1e-12);
+  EXPECT_EQ(arm.excess()->quantity, LimitExcess::Quantity::velocity);
+  for (int k = 0; k < 1000; ++k) guide(1.5);
+  EXPECT_EQ(arm.position()[0], 1);
+  EXPECT_EQ(arm.velocity()[0], 0);
+  EXPECT_EQ(arm.excess()->quantity, LimitExcess::Quantity::position);
+}
+
+TEST(SetPoint, FollowsACommandStreamThatIsSampledAtOtherInstants) {
+  const RobotModel model = one_joint();
+  SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};
+  const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
+  std::mt19937 random{11};
+  SCOPED_TRACE("seed 11");
+  std::uniform_int_distribution<int> jitter{0, 400'000};
+  for (int k = 1; k <= 1200; ++k) {
+    const Time now{k * 1'000'000LL + jitter(random)};
+    const double t = 0.001 * k;
+    arm.step(now,
+             ServoCommand{Time{k * 1'000'000LL}, value(move.position(t)), value(move.velocity(t))});
+    ASSERT_FALSE(arm.excess()) << "at " << t;
+  }
+}
+
+TEST(SetPoint, FollowsACommandStreamAcrossAPauseOfItsOwnThread) {
+  const RobotModel model = one_joint();
+  SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};
+  const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
+  const auto follow = [&](double command_s, double now_s) {
+    arm.step(Time{} + seconds(now_s),
+             ServoCommand{Time{} + seconds(command_s), value(move.position(command_s)),
+                          value(move.velocity(command_s))});
+    ASSERT_FALSE(arm.excess()) << "commanded at " << command_s << ", executed at " << now_s;
+  };
+  for (int k = 1; k < 250; ++k) follow(0.001 * k, 0.001 * k + 2e-5);
+  follow(0.250, 0.258);    // stopped for 8 ms between the command and its execution
+  follow(0.2581, 0.2582);  // and the next command comes at once
+  follow(0.259, 0.2591);
+}
+
+TEST(SetPoint, RefusesAJumpInACommandStreamThatIsSampledAtOtherInstants) {
+  const RobotModel model = one_joint();
+  SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};
+  const auto at = [](double t) { return Time{} + seconds(t); };
+  arm.step(at(0.0011), ServoCommand{at(0.001), value(0), value(0)});
+  arm.step(at(0.0021), ServoCommand{at(0.002), value(0.01), value(0)});
+  ASSERT_TRUE(arm.excess());
+  EXPECT_EQ(arm.excess()->quantity, LimitExcess::Quantity::acceleration);
+  EXPECT_LT(arm.position()[0], 0.001);
+}
+
+TEST(SetPoint, RefusesAJumpBetweenTwoCommandsOfOneStamp) {
+  const RobotModel model = one_joint();
+  SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};
+  const auto at = [](double t) { return Time{} + seconds(t); };
+  arm.step(at(0.0011), ServoCommand{at(0.001), value(0), value(0)});
+  arm.step(at(0.0021), ServoCommand{at(0.001), value(0.01), value(0)});
+  ASSERT_TRUE(arm.excess());
+  EXPECT_LT(arm.position()[0], 0.001);
+}
+
+}  // namespace
+}  // namespace armature

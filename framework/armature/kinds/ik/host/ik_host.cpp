@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -9,6 +10,7 @@
 #include "armature/kinds/request_host.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/tool_pose_messages.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/kinematics/locked_joints.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
 #include "armature/values/guarded.hpp"
@@ -27,6 +29,17 @@ msg::IkSolution solution_of(const RobotModel& robot, const IkBranch& branch) {
   solution.within_limits_(branch.within_limits);
   solution.singular_(branch.singular);
   return solution;
+}
+
+/// A branch that keeps the limits has its joints turned by whole turns into them, as near to `seed`
+/// as they allow; how far it is from the goal is what forward kinematics says.
+void examine(const RobotModel& robot, const IkGoal& goal, const JointVector& seed,
+             IkBranch& branch) {
+  JointVector q = branch.q;
+  branch.within_limits = branch.within_limits && unwind(robot, seed, q);
+  if (branch.within_limits) branch.q = q;
+  const Eigen::Vector3d axis = robot.pointing_axis().value_or(Eigen::Vector3d::UnitX());
+  branch.residual = residual(forward_kinematics(robot, branch.q), axis, goal.pose);
 }
 
 /// The first defect of a solver's answer, or nullopt.
@@ -72,8 +85,13 @@ IkStatus IkHost::solve(const msg::IkRequest& request, std::string& reason) {
     reason = seed.error().text;
     return invalid;
   }
+  const auto pose = checked(tool_pose_of(request), "the goal's");
+  if (!pose) {
+    reason = pose.error().text;
+    return invalid;
+  }
   IkGoal goal;
-  goal.pose = tool_pose_of(request);
+  goal.pose = *pose;
   if (request.has_redundancy_()) goal.redundancy = request.redundancy_();
   // Anyone asks, so what was chosen last is where the seed is.
   const auto status = guarded([&] {
@@ -85,6 +103,9 @@ IkStatus IkHost::solve(const msg::IkRequest& request, std::string& reason) {
     branches_.clear();
     reason = *wrong;
     return {IkStatus::Code::no_convergence, 0, {}};
+  }
+  for (int i = 0; i < branches_.count; ++i) {
+    examine(robot_, goal, *seed, branches_.branch[static_cast<std::size_t>(i)]);
   }
   if (status->code != IkStatus::Code::ok) reason = describe(*status);
   return *status;

@@ -4,6 +4,7 @@
 // carried over as they are, 3. bad requests are answered with their exact reason.
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <stdexcept>
 
 #include "armature/kinds/ik/ik.hpp"
@@ -11,6 +12,7 @@
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
+#include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/model/test_robots.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 
@@ -43,7 +45,7 @@ class EchoIk final : public IkSolver {
                  .residual = {.position_m = 1e-12, .angle_rad = 2e-12},
                  .within_limits = true};
     out.add() = {.label = "seed", .q = seed, .singular = true};
-    if (instead) out.add() = {.label = "instead", .q = *instead};
+    if (instead) out.add() = {.label = "instead", .q = *instead, .within_limits = true};
     if (throws) throw std::runtime_error{"the matrix is singular"};
     return answer;
   }
@@ -108,8 +110,6 @@ TEST_F(IkHostTest, TellsEveryBranchWithAllJoints) {
   EXPECT_EQ(up.label_(), "up");
   EXPECT_EQ(up.joints_(), (std::vector<double>{0.1, 0.2, 0.3, -0.3, 0.4, 0.5}));
   EXPECT_EQ(up.redundancy_(), 0.25);
-  EXPECT_EQ(up.residual_m_(), 1e-12);
-  EXPECT_EQ(up.residual_rad_(), 2e-12);
   EXPECT_TRUE(up.within_limits_());
   EXPECT_FALSE(up.singular_());
   EXPECT_TRUE(answer.solutions_()[1].singular_());
@@ -148,6 +148,36 @@ TEST_F(IkHostTest, AnAnswerThatIsNoJointPositionIsAReason) {
   EXPECT_EQ(ask(request(2)).status_(), "ok");
 }
 
+TEST_F(IkHostTest, JointsThatAreCalledWithinLimitsAreWithinThemAsNearToTheSeedAsTheyAllow) {
+  msg::IkRequest seeded = request(1);
+  seeded.seed_({0, 0, 0, 0, -1, 0});
+  const auto told = [&](const JointVector& q) {
+    EchoIk::instead = q;
+    const msg::IkResponse answer = ask(seeded);
+    EchoIk::instead.reset();
+    return answer.solutions_().at(2);
+  };
+  constexpr double kTurn = 2 * std::numbers::pi;
+  const msg::IkSolution turned = told(joint_vector({0.1 - kTurn, 0.2, 0.3, 0.4 + kTurn, 0.5}));
+  const std::vector<double> wanted{0.1, 0.2, 0.3, -0.3, 0.4, 0.5};
+  ASSERT_EQ(turned.joints_().size(), 6u);
+  for (std::size_t j = 0; j < 6; ++j) EXPECT_NEAR(turned.joints_()[j], wanted[j], 1e-12) << j;
+  EXPECT_TRUE(turned.within_limits_());
+  const msg::IkSolution outside = told(joint_vector({0.1, 0.2, 2, 0.4, 0.5}));
+  EXPECT_EQ(outside.joints_()[2], 2);
+  EXPECT_FALSE(outside.within_limits_()) << "whatever the plugin says";
+}
+
+TEST_F(IkHostTest, TellsHowFarFromTheGoalForwardKinematicsFindsTheJoints) {
+  const RobotModel lamp = testing::dental_lamp();
+  const msg::IkSolution up = ask(request(1)).solutions_()[0];
+  const PoseResidual off =
+      residual(forward_kinematics(lamp, joint_vector({0.1, 0.2, 0.3, 0.4, 0.5})),
+               *lamp.pointing_axis(), {{1, 2, 3}, Direction{{0, 1, 0}}});
+  EXPECT_EQ(up.residual_m_(), off.position_m);
+  EXPECT_EQ(up.residual_rad_(), off.angle_rad);
+}
+
 TEST_F(IkHostTest, HandsOnTheStatusWithItsReasonAndWhatWasFoundAllTheSame) {
   EchoIk::answer = {IkStatus::Code::joint_limit, 0, "j5 at no turn"};
   const msg::IkResponse limit = ask(request(1));
@@ -169,14 +199,14 @@ TEST_F(IkHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadBee
     EXPECT_EQ(ask(request(6)).status_(), "ok");
     return answer.reason_();
   };
-  EXPECT_EQ(refusal([](auto& r) { r.position_().y_(NAN); }),
-            "invalid_input: the position is not finite");
-  EXPECT_EQ(refusal([](auto& r) { r.direction_().y_(0); }), "invalid_input: the direction is zero");
+  EXPECT_EQ(refusal([](auto& r) { r.position_().y_(NAN); }), "the goal's position is not finite");
+  EXPECT_EQ(refusal([](auto& r) { r.direction_().y_(0.01); }),
+            "the goal's direction has length 0.01, not 1");
   EXPECT_EQ(refusal([](auto& r) {
               r.pointing_(false);
-              assign(r.orientation_(), Eigen::Quaterniond{0, 0, 0, 0});
+              assign(r.orientation_(), Eigen::Quaterniond{0.3, 0, 0, 0});
             }),
-            "invalid_input: the rotation is a zero quaternion");
+            "the goal's quaternion has length 0.3, not 1");
   EXPECT_EQ(refusal([](auto& r) {
               r.has_redundancy_(true);
               r.redundancy_(INFINITY);

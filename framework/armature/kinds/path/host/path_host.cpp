@@ -79,9 +79,13 @@ class PathHost final : public RequestHost<msg::PathRequest, msg::PathResponse> {
     if (!path) return path;
     for (const PathSegment& segment : *path) {
       for (const PathSample& sample : segment.samples) {
-        if (!sample.joints || sample.joints->size() == robot_.dof()) continue;
-        return refuse(fmt::format("the plugin answered {} joints, and the robot has {}",
-                                  sample.joints->size(), robot_.dof()));
+        if (sample.joints && sample.joints->size() != robot_.dof()) {
+          return refuse(fmt::format("the plugin answered {} joints, and the robot has {}",
+                                    sample.joints->size(), robot_.dof()));
+        }
+        if (!sample.pose.position.allFinite() || (sample.joints && !sample.joints->allFinite())) {
+          return refuse("the plugin answered a path that is not finite");
+        }
       }
     }
     return path;

@@ -21,6 +21,7 @@ class OverTheFocus final : public PathPlanner {
  public:
   static inline PathRequest asked;
   static inline bool throws = false;
+  static inline double off = 0;
 
   Expected<Path> plan(const PathRequest& request) const override {
     asked = request;
@@ -30,6 +31,7 @@ class OverTheFocus final : public PathPlanner {
     if (!good->focus) return refuse("there is no point to look at");
     ToolPose middle = good->goal;
     middle.position = *good->focus;
+    middle.position.y() += off;
     return Path{{.space = PathSegment::Space::joint,
                  .samples = {{1, middle, std::nullopt, good->start_joints}},
                  .stop_at_end = false,
@@ -168,6 +170,15 @@ TEST_F(PathHostTest, AnswersABadRequestWithItsReasonAndTheNextOneAsIfNothingHadB
             "the start's quaternion has length 0, not 1");
   EXPECT_EQ(refusal([](auto& r) { r.header_().frame_id_() = "tool"; }),
             "the request is stated in frame 'tool', not in 'base'");
+}
+
+TEST_F(PathHostTest, AnAnswerThatIsNotFiniteIsAReason) {
+  OverTheFocus::off = NAN;
+  const msg::PathResponse answer = ask(request(1));
+  OverTheFocus::off = 0;
+  EXPECT_FALSE(answer.valid_());
+  EXPECT_EQ(answer.reason_(), "the plugin answered a path that is not finite");
+  EXPECT_TRUE(ask(request(2)).valid_());
 }
 
 TEST_F(PathHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 #include "armature/robot/files/robot_keys.hpp"
 
@@ -124,14 +125,17 @@ void read_limits_of(const Node& node, std::vector<Joint>& joints, Problems& prob
   map.finish();
 }
 
+void told_twice(const Node& name, Problems& problems) {
+  problems.add(name.origin(), fmt::format("there is a joint '{}' already", name.text()));
+}
+
 void check_names(const std::vector<ReadJoint>& joints, Problems& problems) {
   for (auto it = joints.begin(); it != joints.end(); ++it) {
     if (!it->name) continue;
     const std::string& name = it->joint.name;
     const auto same = [&](const ReadJoint& other) { return other.joint.name == name; };
     check_joint_name(name, it->name->origin(), problems);
-    if (std::any_of(joints.begin(), it, same))
-      problems.add(it->name->origin(), fmt::format("there is a joint '{}' already", name));
+    if (std::any_of(joints.begin(), it, same)) told_twice(*it->name, problems);
   }
 }
 
@@ -185,7 +189,12 @@ std::vector<Joint> read_joints(const Node& list, Problems& problems) {
 
 void read_other_limits(const Node& list, std::vector<Joint>& joints, Problems& problems) {
   if (!is_list(list, problems)) return;
-  for (const Node& item : list.items()) read_limits_of(item, joints, problems);
+  std::set<std::string> named;
+  for (const Node& item : list.items()) {
+    read_limits_of(item, joints, problems);
+    const Node* name = item.find("name");
+    if (name && !named.insert(name->text()).second) told_twice(*name, problems);
+  }
 }
 
 void check_joint_name(const std::string& name, const config::Origin& at, Problems& problems) {

@@ -297,6 +297,9 @@ TEST_F(UrdfFile, InARobotFileIsHeldToWhatMotionNeedsAndToItsWords) {
               ElementsAre(HasSubstr("there is no joint 'j3'"),
                           "arm.yaml:6:10: 'hand' is the name of a link; a frame needs its own",
                           HasSubstr("there is no link or frame 'l2'")));
+  EXPECT_THAT(said("tip: hand\njoints: [{name: j2, velocity_rad_s: 1}, {name: j2, locked: true}]\n"
+                   "home_deg: [0, 0]\n"),
+              ElementsAre("arm.yaml:5:48: there is a joint 'j2' already"));
 }
 
 // tinyxml2 and urdfdom read such a file, browsers and other strict parsers refuse it.

@@ -28,9 +28,9 @@ inline void write_trajectory(const Trajectory& trajectory, const RobotModel& mod
   }
 }
 
-/// The same for ROS: all joints' positions, velocities and accelerations at every knot. A quintic
-/// through two neighbouring points, which is what ros2_control's controllers run, is the trajectory
-/// itself.
+/// The same for ROS: all joints' positions, velocities and accelerations at every knot that is
+/// later than the one before. A quintic through two neighbouring points, which is what
+/// ros2_control's controllers run, is the trajectory itself.
 inline void write_trajectory_points(const Trajectory& trajectory, const RobotModel& model,
                                     msg::JointTrajectory& message) {
   write_header(message.header_(), trajectory.start, kBaseFrame);
@@ -38,6 +38,8 @@ inline void write_trajectory_points(const Trajectory& trajectory, const RobotMod
   for (const Joint& joint : model.joints()) message.joint_names_().push_back(joint.name);
   message.points_().clear();
   for (const double knot : trajectory.knots) {
+    const auto& points = message.points_();
+    if (!points.empty() && seconds(knot) <= duration_of(points.back().time_from_start_())) continue;
     const JointState state = trajectory.at(trajectory.start + seconds(knot));
     auto& point = message.points_().emplace_back();
     for (const ChainLink& link : model.chain()) {

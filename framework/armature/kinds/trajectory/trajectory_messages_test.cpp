@@ -59,5 +59,26 @@ TEST(TrajectoryMessages, AQuinticBetweenThePointsForRosIsTheTrajectory) {
   }
 }
 
+// ros2_control refuses times that do not rise.
+TEST(TrajectoryMessages, PiecesOfNoDurationGiveRosNoSecondPoint) {
+  const RobotModel lamp = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml");
+  const JointVector home = resting_position(lamp);
+  msg::JointTrajectory message;
+  write_trajectory_points({.goal_id = 5,
+                           .dof = 5,
+                           .start = Time{42},
+                           .knots = {0, 0},
+                           .pieces = hold_at(home, {}, 5).pieces},
+                          lamp, message);
+  EXPECT_EQ(message.points_().size(), 1u);
+  Trajectory move{
+      .goal_id = 5, .dof = 5, .start = Time{42}, .knots = {0, 0.5, 0.5 + 1e-12}, .pieces = {}};
+  for (int j = 0; j < 5; ++j) move.pieces.push_back(Quintic::between({0, 0, 0}, {0.3, 0, 0}, 0.5));
+  for (int j = 0; j < 5; ++j) move.pieces.push_back(Quintic{{0.3}});
+  write_trajectory_points(move, lamp, message);
+  ASSERT_EQ(message.points_().size(), 2u);
+  EXPECT_EQ(duration_of(message.points_()[1].time_from_start_()), seconds(0.5));
+}
+
 }  // namespace
 }  // namespace armature

@@ -119,6 +119,13 @@ TEST(RobotFile, RefusesALockWithoutAHomeOutOfLimitsOrOnACoupledJoint) {
               ElementsAre(HasSubstr("joint 'c' follows 'b', which is locked")));
 }
 
+TEST(RobotFile, TakesAHomeAtALimitThatACoupledJointSets) {
+  const RobotModel robot =
+      read_good(with("{name: b, coupled: {to: a, offset_deg: 15}, limits_deg: [-70, 90]}",
+                     kGoodFrames + "\nhome_deg: [-85, -70]"));
+  EXPECT_NEAR(robot.lower()[0], (*robot.home())[0], 1e-15);
+}
+
 TEST(RobotFile, StatesHowFarACoupledJointMayBeMeasuredFromItsLeader) {
   const RobotModel robot =
       read_good(with("{name: b, coupled: {to: a}, coupled_within_deg: 0.2}", kGoodFrames));

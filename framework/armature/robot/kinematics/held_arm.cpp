@@ -12,6 +12,7 @@ namespace {
 // A hand moves by less than a millimetre in a step: Newton is there after three.
 constexpr int kSteps = 8;
 constexpr double kThere = 1e-10;       // [m] and [rad]
+constexpr double kOfLimits = 1e-9;     // of a limit: rounding
 constexpr double kLargestStep = 0.05;  // [rad] or [m] of a joint: farther off the arm is singular
 
 const std::string& joint_name(const RobotModel& model, Eigen::Index i) {
@@ -28,7 +29,7 @@ Expected<JointVector> joints_of_held_arm(const RobotModel& model, const ToolPose
     const TaskError missing = task_error(model, q, pose);
     if (missing.within(kThere, kThere)) {
       for (Eigen::Index j = 0; j < q.size(); ++j) {
-        if (q[j] >= model.lower()[j] && q[j] <= model.upper()[j]) continue;
+        if (q[j] >= model.lower()[j] - kOfLimits && q[j] <= model.upper()[j] + kOfLimits) continue;
         return refuse(fmt::format("joint {} is at its limit", joint_name(model, j)));
       }
       return q;

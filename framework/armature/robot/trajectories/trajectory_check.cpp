@@ -141,10 +141,11 @@ ReasonText trajectory_defect(const TrajectoryView& trajectory, const RobotModel&
     return wrong;
   }
   const JointState end = trajectory.at(trajectory.end());
-  if (!(end.v.norm() <= kJumpVelocity && end.a.norm() <= kJumpAcceleration)) {
+  for (int i = 0; i < model.dof(); ++i) {
+    if (std::abs(end.v[i]) <= kJumpVelocity && std::abs(end.a[i]) <= kJumpAcceleration) continue;
     return ReasonText::format(
-        "the trajectory does not end at rest: {:.3g} rad/s, {:.3g} rad/s2 left", end.v.norm(),
-        end.a.norm());
+        "the trajectory does not end at rest: joint {0} has {1:.3g} {3}/s and {2:.3g} {3}/s2 left",
+        joint_name(model, i), end.v[i], end.a[i], unit(model, i));
   }
   for (int k = 0; k < trajectory.piece_count(); ++k) {
     if (k > 0) {

@@ -93,8 +93,14 @@ TEST_F(TrajectoryCheck, NoPiecesAreADefect) {
 TEST_F(TrajectoryCheck, AMotionThatGoesOnAtItsEndIsADefect) {
   JointState end = resting(1, 1);
   end.v[0] = 0.5;
-  EXPECT_THAT(defect(of_one_piece(resting(0, 0), end, 3), resting(0, 0)),
-              ::testing::StartsWith("the trajectory does not end at rest: 0.5 rad/s, "));
+  EXPECT_THAT(
+      defect(of_one_piece(resting(0, 0), end, 3), resting(0, 0)),
+      ::testing::StartsWith("the trajectory does not end at rest: joint hinge has 0.5 rad/s and "));
+  end = resting(1, 1);
+  end.v[1] = -0.25;
+  EXPECT_THAT(
+      defect(of_one_piece(resting(0, 0), end, 3), resting(0, 0)),
+      ::testing::StartsWith("the trajectory does not end at rest: joint slide has -0.25 m/s and "));
 }
 
 TEST_F(TrajectoryCheck, AJointThatJumpsBetweenTwoPiecesIsNamedWithItsTime) {

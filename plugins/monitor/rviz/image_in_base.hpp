@@ -17,6 +17,8 @@ class ImageInBase {
  public:
   /// An answer that tells a registration.
   void hear(const msg::RegistrationResponse& registration);
+  /// It was of another plan.
+  void forget_registration() { robot_T_image_.reset(); }
   /// The chain from base to tracker to patient; one that lacks a link is passed over.
   void hear(const msg::TFMessage& chain);
 

@@ -181,6 +181,48 @@ TEST_F(RvizMonitorTest, DrawsAPlanOnImagesOnceTheAnswerToTheTasksQuestionIsThere
   }
 }
 
+TEST_F(RvizMonitorTest, DrawsThePlanOfTheTaskUntilItAsksOfAnother) {
+  msg::NeedlePlan plan;
+  const auto ask = [&](std::uint64_t id) {
+    msg::RegistrationRequest request;
+    request.request_id_(id);
+    request.targets_() = {plan.target_(), plan.entry_()};
+    monitor_.send("request", request);
+    step();
+  };
+  const auto answer = [&](std::uint64_t id) {
+    msg::RegistrationResponse response;
+    response.header_().frame_id_("base");
+    response.request_id_(id);
+    response.valid_(true);
+    response.robot_t_image_({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+    monitor_.send("registration", response);
+    step();
+  };
+  const auto lesion_z = [&] {
+    std::vector<double> places;
+    const auto arrays = monitor_.take<msg::MarkerArray>("plan_markers");
+    if (arrays.empty()) return places;
+    for (const auto& marker : arrays.back().markers_()) {
+      if (marker.ns_() == "lesion") places.push_back(marker.pose_().position_().z_());
+    }
+    return places;
+  };
+  plan.target_().z_(0.01);
+  monitor_.send("needle_plan", plan);
+  ask(7);
+  answer(7);
+  EXPECT_EQ(lesion_z(), std::vector{0.01});
+  plan.target_().z_(0.02);
+  monitor_.send("needle_plan", plan);
+  step();
+  EXPECT_EQ(lesion_z(), std::vector{0.01});
+  ask(8);
+  EXPECT_TRUE(lesion_z().empty()) << "where this one lies was not answered yet";
+  answer(8);
+  EXPECT_EQ(lesion_z(), std::vector{0.02});
+}
+
 TEST_F(RvizMonitorTest, TellsNothingOfJointsThatAreNone) {
   step();
   monitor_.take<msg::TFMessage>("tf");

@@ -12,6 +12,7 @@
 #include "armature/kinds/announced_volume.hpp"
 #include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/plan_of_task.hpp"
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
@@ -57,6 +58,7 @@ class SectionsComponent final : public Component {
         needle_axis_{robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ())},
         ports_{setup},
         announced_{ports_.volume},
+        plan_{ports_.plan, ports_.request},
         registration_{ports_.request, ports_.registration},
         images_{ports_.axial, ports_.coronal, ports_.sagittal} {
     if (parameters_.window[0] >= parameters_.window[1]) {
@@ -66,35 +68,35 @@ class SectionsComponent final : public Component {
   }
 
   void step(Time now) override {
-    if (auto volume = announced_.take()) {
+    const bool is_other_plan = plan_.read();
+    if (is_other_plan) image_T_robot_.reset();
+    const bool takes_volume = !volume_ || !plan_.get() || is_other_plan;
+    if (auto volume = takes_volume ? announced_.take() : std::nullopt) {
       if (*volume) {
         volume_ = std::move(**volume);
         healthy();
       } else {
+        volume_.reset();
         degraded(volume->error().text);
       }
     }
     registration_.listen([&](const msg::RegistrationResponse& response) {
       image_T_robot_ = robot_T_image_of(response).inverse();
     });
-    if (ports_.plan.latest()) plan_now_ = *ports_.plan.latest();
-    const auto tool = tool_now();
-    if (tool) tool_ = *tool;
-    publish_tool(tool, now);
-    const Tool* shown = tool ? &*tool : nullptr;
+    tool_ = tool_now();
+    publish_tool(now);
     for (std::size_t i = 0; volume_ && i < kPictures.size(); ++i) {
-      if (images_[i].has_subscribers()) publish_picture(i, shown, now);
+      if (images_[i].has_subscribers()) publish_picture(i, now);
     }
   }
 
-  /// The sections through the target, with the tool where it was last.
+  /// The sections through the target, with the tool where it is at the end.
   void write_files(const std::filesystem::path& directory) const override {
     if (!volume_) return;
-    const Eigen::Vector3d through = parameters_.through == Parameters::Through::point || !plan_now_
-                                        ? point()
-                                        : to_eigen(plan_now_->target_());
+    const bool through_point = parameters_.through == Parameters::Through::point || !plan();
+    const Eigen::Vector3d through = through_point ? point() : target();
     for (const Picture& picture : kPictures) {
-      const cv::Mat drawn = drawn_through(picture, through, tool_ ? &*tool_ : nullptr);
+      const cv::Mat drawn = drawn_through(picture, through);
       write_atomically(directory / fmt::format("section_{}.png", picture.name),
                        png::encoded({.width = drawn.cols,
                                      .height = drawn.rows,
@@ -120,8 +122,15 @@ class SectionsComponent final : public Component {
 
   Eigen::Vector3d point() const { return vector_of(parameters_.point); }
 
+  /// Null while there is none whose line is finite.
+  const msg::NeedlePlan* plan() const {
+    return plan_.get() && (target() + entry()).allFinite() ? plan_.get() : nullptr;
+  }
+  Eigen::Vector3d target() const { return to_eigen(plan_.get()->target_()); }
+  Eigen::Vector3d entry() const { return to_eigen(plan_.get()->entry_()); }
+
   std::vector<ForbiddenZone> vessels() const {
-    return plan_now_ ? zones_of(plan_now_->forbidden_()) : std::vector<ForbiddenZone>{};
+    return plan() ? zones_of(plan()->forbidden_()) : std::vector<ForbiddenZone>{};
   }
 
   static double distance_from_line(const Eigen::Vector3d& point, const Eigen::Vector3d& a,
@@ -138,62 +147,64 @@ class SectionsComponent final : public Component {
     return distance;
   }
 
-  void publish_tool(const Expected<Tool>& tool, Time now) {
+  /// Why nothing can be told of the tool, or "".
+  std::string reason() const {
+    if (!tool_) return tool_.error().text;
+    return plan() ? "" : "there is no plan of a finite line yet";
+  }
+
+  void publish_tool(Time now) {
     auto message = ports_.tool.loan();
     *message = msg::ToolInImage{};  // it was used before
-    write_header(message->header_(), tool ? tool->stamp : now, kImageFrame);
-    message->valid_(tool && plan_now_);
-    if (tool && plan_now_) {
-      assign(message->tip_(), tool->tip);
-      assign(message->direction_(), tool->direction);
-      const Eigen::Vector3d target = to_eigen(plan_now_->target_());
-      message->target_distance_((tool->tip - target).norm());
-      message->line_distance_(distance_from_line(tool->tip, to_eigen(plan_now_->entry_()), target));
-      message->vessel_distance_(vessel_distance(tool->tip));
-    } else {
-      message->reason_() = tool ? "there is no plan yet" : tool.error().text;
+    write_header(message->header_(), tool_ ? tool_->stamp : now, kImageFrame);
+    message->reason_() = reason();
+    message->valid_(message->reason_().empty());
+    if (message->valid_()) {
+      assign(message->tip_(), tool_->tip);
+      assign(message->direction_(), tool_->direction);
+      message->target_distance_((tool_->tip - target()).norm());
+      message->line_distance_(distance_from_line(tool_->tip, entry(), target()));
+      message->vessel_distance_(vessel_distance(tool_->tip));
     }
     message.publish();
   }
 
   /// What the live sections go through.
-  Eigen::Vector3d through_now(const Tool* tool) const {
+  Eigen::Vector3d through_now() const {
     if (parameters_.through == Parameters::Through::point) return point();
-    const bool tool_inside = tool && volume_->geometry.contains(tool->tip);
-    if (parameters_.through == Parameters::Through::tool && tool_inside) return tool->tip;
-    return plan_now_ ? to_eigen(plan_now_->target_()) : point();
+    const bool tool_inside = tool_ && volume_->geometry.contains(tool_->tip);
+    if (parameters_.through == Parameters::Through::tool && tool_inside) return tool_->tip;
+    return plan() ? target() : point();
   }
 
-  Overlay overlay(const Tool* tool) const {
+  Overlay overlay() const {
     Overlay overlay{.plan = {}, .needle = {}, .vessels = vessels()};
-    if (plan_now_) overlay.plan = {to_eigen(plan_now_->entry_()), to_eigen(plan_now_->target_())};
-    if (!tool) return overlay;
-    overlay.needle = {tool->tip, tool->tip - parameters_.needle * tool->direction};
-    if (plan_now_) {
+    if (plan()) overlay.plan = {entry(), target()};
+    if (!tool_) return overlay;
+    overlay.needle = {tool_->tip, tool_->tip - parameters_.needle * tool_->direction};
+    if (plan()) {
       overlay.texts.push_back(
-          fmt::format("to the target {:.1f} mm", 1e3 * (tool->tip - overlay.plan->to).norm()));
+          fmt::format("to the target {:.1f} mm", 1e3 * (tool_->tip - target()).norm()));
     }
-    const double vessel = vessel_distance(tool->tip);
+    const double vessel = vessel_distance(tool_->tip);
     if (std::isfinite(vessel)) {
       overlay.texts.push_back(fmt::format("to a vessel {:.1f} mm", 1e3 * vessel));
     }
     return overlay;
   }
 
-  /// `tool`: null when it is not known where it is.
-  cv::Mat drawn_through(const Picture& picture, const Eigen::Vector3d& through,
-                        const Tool* tool) const {
+  cv::Mat drawn_through(const Picture& picture, const Eigen::Vector3d& through) const {
     const Section section = section_through(picture.view, through, volume_->geometry,
                                             parameters_.view, parameters_.size);
-    return drawn(*volume_, section, parameters_.window[0], parameters_.window[1], overlay(tool),
+    return drawn(*volume_, section, parameters_.window[0], parameters_.window[1], overlay(),
                  fmt::format("{} {} = {:.1f} mm", picture.name, picture.normal,
                              1e3 * through[picture.axis]));
   }
 
-  void publish_picture(std::size_t i, const Tool* tool, Time now) {
-    const cv::Mat picture = drawn_through(kPictures[i], through_now(tool), tool);
+  void publish_picture(std::size_t i, Time now) {
+    const cv::Mat picture = drawn_through(kPictures[i], through_now());
     auto image = images_[i].loan();
-    write_header(image->header_(), tool ? tool->stamp : now, kImageFrame);
+    write_header(image->header_(), tool_ ? tool_->stamp : now, kImageFrame);
     image->width_(static_cast<std::uint32_t>(picture.cols));
     image->height_(static_cast<std::uint32_t>(picture.rows));
     image->step_(static_cast<std::uint32_t>(3 * picture.cols));
@@ -207,11 +218,11 @@ class SectionsComponent final : public Component {
   RobotModel robot_;
   Eigen::Vector3d needle_axis_;
   std::optional<Volume> volume_;
-  std::optional<msg::NeedlePlan> plan_now_;
   std::optional<Eigen::Affine3d> image_T_robot_;
-  std::optional<Tool> tool_;  // as it was known last
+  Expected<Tool> tool_ = refuse("the image is not registered yet");
   Ports ports_;
   AnnouncedVolume announced_;
+  PlanOfTask<msg::NeedlePlan> plan_;
   OverheardRegistration registration_;
   std::array<Output<msg::Image>, 3> images_;
 };

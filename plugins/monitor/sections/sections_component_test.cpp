@@ -26,28 +26,41 @@ using Eigen::Vector3d;
 class SectionsComponentTest : public testing::Test {
  protected:
   void show_volume_and_plan() {
+    show_volume(0.04);
+    show_plan({0, 0, 0.01});
+  }
+  void show_volume(double radius) {
     VolumeGeometry geometry{.size = {51, 51, 51}, .spacing = Vector3d::Constant(0.002)};
     geometry.origin = Vector3d::Constant(-0.05);
-    const Volume volume = scanned(std::array{ball({0, 0, 0}, 0.04, 35)}, geometry, {});
+    const Volume volume = scanned(std::array{ball({0, 0, 0}, radius, 35)}, geometry, {});
     ASSERT_TRUE(write_nrrd(volume, folder_ / "volume.nrrd"));
     msg::VolumeFile file;
     file.path_(folder_ / "volume.nrrd");
     file.sha256_(sha256_of(volume));
     view_.send("volume", file);
+  }
+  void show_plan(const Vector3d& target, double vessel_x = 0.02) {
     msg::NeedlePlan plan;
     assign(plan.entry_(), Vector3d{0, 0, 0.04});
-    assign(plan.target_(), Vector3d{0, 0, 0.01});
-    write_zones({{"vessel 1", {0.02, -0.01, 0.01}, {0.02, 0.01, 0.01}, 0.003}}, plan.forbidden_());
+    assign(plan.target_(), target);
+    write_zones({{"vessel 1", {vessel_x, -0.01, 0.01}, {vessel_x, 0.01, 0.01}, 0.003}},
+                plan.forbidden_());
     view_.send("plan", plan);
   }
-  /// The image's origin is where the tip is, moved by `off`.
-  void register_at_tip(const Vector3d& off) {
-    const Vector3d origin = tip_ + off;
+  void ask(std::uint64_t id, const Vector3d& target) {
     msg::RegistrationRequest request;
-    request.request_id_(7);
+    request.request_id_(id);
+    assign(request.targets_().emplace_back(), target);
+    assign(request.targets_().emplace_back(), Vector3d{0, 0, 0.04});
     view_.send("request", request);
+  }
+  /// The image's origin is where the tip is, moved by `off`.
+  void register_at_tip(const Vector3d& off, std::uint64_t id = 7,
+                       const Vector3d& target = {0, 0, 0.01}) {
+    const Vector3d origin = tip_ + off;
+    ask(id, target);
     msg::RegistrationResponse response;
-    response.request_id_(7);
+    response.request_id_(id);
     response.valid_(true);
     response.robot_t_image_({1, 0, 0, origin.x(), 0, 1, 0, origin.y(), 0, 0, 1, origin.z()});
     view_.send("registration", response);
@@ -88,6 +101,53 @@ TEST_F(SectionsComponentTest, TellWhereTheToolIsInTheImageAndHowFarFromWhatCount
   EXPECT_EQ(tools[0].header_().frame_id_(), "image");
 }
 
+TEST_F(SectionsComponentTest, StayWithThePlanAndTheVolumeOfTheTaskUntilItAsksOfAnother) {
+  const auto tool_at = [&](double time_s) {
+    tell_arm();
+    static_cast<void>(view_.take<msg::ToolInImage>("tool"));
+    view_.step(time_s);
+    const auto tools = view_.take<msg::ToolInImage>("tool");
+    return tools.empty() ? msg::ToolInImage{} : tools.back();
+  };
+  const auto axial = [&] {
+    const auto images = view_.take<msg::Image>("axial");
+    return images.empty() ? std::vector<std::uint8_t>{} : images.back().data_();
+  };
+  static_cast<void>(axial());
+  show_volume_and_plan();
+  register_at_tip({-0.003, 0, -0.02});
+  const double distance = tool_at(100).target_distance_();
+  const auto shown = axial();
+  show_volume(0.03);
+  show_plan({0, 0, 0.01}, 0.01);  // with another vessel
+  const msg::ToolInImage with_own = tool_at(100.1);
+  EXPECT_NEAR(with_own.vessel_distance_(), std::hypot(0.017, 0.01) - 0.003, 1e-12);
+  EXPECT_EQ(axial(), shown);
+  const Vector3d other{0.01, 0, 0.02};
+  show_plan(other);
+  EXPECT_EQ(tool_at(100.15).target_distance_(), distance);
+  EXPECT_EQ(axial(), shown);
+  ask(8, other);
+  const msg::ToolInImage asked = tool_at(100.2);
+  EXPECT_FALSE(asked.valid_()) << "what was registered is not of this plan";
+  EXPECT_EQ(asked.reason_(), "the image is not registered yet");
+  register_at_tip({-0.003, 0, -0.02}, 8, other);
+  EXPECT_NEAR(tool_at(100.25).target_distance_(), 0.007, 1e-12);
+  EXPECT_NE(axial(), shown);
+}
+
+TEST_F(SectionsComponentTest, TellNoDistancesFromATargetThatIsNoNumber) {
+  const Vector3d nowhere{NAN, 0, 0};
+  show_plan(nowhere);
+  register_at_tip({0, 0, 0}, 7, nowhere);
+  tell_arm();
+  view_.step(100);
+  const auto tools = view_.take<msg::ToolInImage>("tool");
+  ASSERT_EQ(tools.size(), 1u);
+  EXPECT_FALSE(tools[0].valid_());
+  EXPECT_EQ(tools[0].reason_(), "there is no plan of a finite line yet");
+}
+
 TEST_F(SectionsComponentTest, ShowThreePicturesWhileSomebodyLooks) {
   static_cast<void>(view_.take<msg::Image>("axial"));
   show_volume_and_plan();
@@ -113,9 +173,15 @@ TEST_F(SectionsComponentTest, ShowNoToolThatWasMeasuredLongAgo) {
   static_cast<void>(view_.take<msg::Image>("axial"));
   show_volume_and_plan();
   register_at_tip({-0.003, 0, -0.02});
+  const auto written = [&] {
+    view_.component().write_files(folder_.path());
+    return cv::imread(folder_ / "section_axial.png");
+  };
   const msg::Image without = axial_at(99.8);
+  const cv::Mat written_without = written();
   tell_arm();
   const msg::Image with = axial_at(100);
+  EXPECT_GT(cv::norm(written(), written_without, cv::NORM_INF), 0);
   ASSERT_FALSE(without.data_().empty());
   EXPECT_NE(with.data_(), without.data_());
   static_cast<void>(view_.take<msg::ToolInImage>("tool"));
@@ -126,6 +192,7 @@ TEST_F(SectionsComponentTest, ShowNoToolThatWasMeasuredLongAgo) {
   ASSERT_EQ(tools.size(), 1u);
   EXPECT_FALSE(tools[0].valid_());
   EXPECT_EQ(tools[0].reason_(), "the arm has not said where it is for the last 0.5 s");
+  EXPECT_EQ(cv::norm(written(), written_without, cv::NORM_INF), 0);
 }
 
 TEST_F(SectionsComponentTest, WriteTheSectionsThroughTheTargetIntoTheReport) {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/plan_of_task.hpp"
 #include "armature/kinds/pose_messages.hpp"
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/setup_robot.hpp"
@@ -33,12 +33,6 @@ constexpr double kMoves_m = 1e-4;              // more than the noise of a tip t
 constexpr Duration kRested = seconds(0.1);     // since the last motion
 constexpr Duration kLongestRamp = seconds(3);  // an arm in a hand need not rest
 
-/// Whether a task that was given this plan asks that.
-bool is_asked_of(const msg::NeedlePlan& plan, const msg::RegistrationRequest& request) {
-  return plan.markers_() == request.image_markers_() &&
-         request.targets_() == std::vector{plan.target_(), plan.entry_()};
-}
-
 }  // namespace
 
 class BiopsyReport final : public Component {
@@ -48,13 +42,14 @@ class BiopsyReport final : public Component {
         robot_{robot_of(setup)},
         needle_axis_{robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ())},
         ports_{setup},
+        plan_{ports_.plan, ports_.request},
         registration_{ports_.request, ports_.registration} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
     if (!start_) start_ = now;
-    read_plan();
+    plan_.read();
     registration_.listen([&](const msg::RegistrationResponse& response) { read(response); });
     for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) read(ports_.measured_js[i], now);
     for (std::size_t i = 0; i < ports_.task_state.size(); ++i) read(ports_.task_state[i], now);
@@ -106,34 +101,25 @@ class BiopsyReport final : public Component {
          radius_of_999_in_1000(needle.error_rms_m, needle.error_95_m));
   }
 
-  /// The first plan stays until the task asks for the registration of another one, as the task
-  /// goes on with its own when others come. What is true of a head is no plan of the task's.
-  void read_plan() {
-    const msg::NeedlePlan* newest = ports_.plan.latest();
-    if (!newest) return;
-    const bool is_asked = ports_.request.latest() && is_asked_of(*newest, *ports_.request.latest());
-    if (!plan_ || is_asked) plan_ = *newest;
-  }
-
   /// None until the task said that the needle is there.
   std::optional<double> target_error_m() const {
-    if (!tip_at_target_ || !plan_ || !ports_.truth.latest()) return {};
+    if (!tip_at_target_ || !plan_.get() || !ports_.truth.latest()) return {};
     const auto robot_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
     if (!robot_T_image) return {};
-    return (*tip_at_target_ - *robot_T_image * to_eigen(plan_->target_())).norm();
+    return (*tip_at_target_ - *robot_T_image * to_eigen(plan_.get()->target_())).norm();
   }
 
   /// Rms distance of the touched places to the true markers that they are nearest to; none when
   /// nothing was touched.
   std::optional<double> touch_error_m() const {
     if (!ports_.touched.latest() || ports_.touched.latest()->points_().empty()) return {};
-    if (!plan_ || !ports_.truth.latest()) return {};
+    if (!plan_.get() || !ports_.truth.latest()) return {};
     const auto robot_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
     if (!robot_T_image) return {};
     double squares = 0;
     for (const msg::Point& place : ports_.touched.latest()->points_()) {
       double nearest = std::numeric_limits<double>::infinity();
-      for (const msg::Point& marker : plan_->markers_()) {
+      for (const msg::Point& marker : plan_.get()->markers_()) {
         const Eigen::Vector3d off = to_eigen(place) - *robot_T_image * to_eigen(marker);
         nearest = std::min(nearest, off.squaredNorm());
       }
@@ -188,7 +174,6 @@ class BiopsyReport final : public Component {
   RobotModel robot_;
   Eigen::Vector3d needle_axis_;
   InsertionMonitor monitor_;
-  std::optional<msg::NeedlePlan> plan_;
   std::optional<Time> start_;
   std::optional<Eigen::Vector3d> tip_at_target_;
   std::optional<Eigen::Vector3d> rested_at_;  // the tip, when it moved last
@@ -197,6 +182,7 @@ class BiopsyReport final : public Component {
   std::optional<double> time_to_target_s_;
   std::string trouble_, ended_as_;
   Ports ports_;
+  PlanOfTask<msg::NeedlePlan> plan_;
   OverheardRegistration registration_;
 };
 

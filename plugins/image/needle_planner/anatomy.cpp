@@ -60,11 +60,12 @@ std::string in_mm(const Eigen::Vector3d& point) {
                      1e3 * point.z());
 }
 
-VoxelMask vessel_voxels(const Volume& volume, const Parameters& parameters) {
+std::vector<ConnectedPart> vessel_parts(const Volume& volume, const Parameters& parameters) {
   VoxelMask vessels = voxels_between(volume, parameters.vessel_from, parameters.bone_from);
   const VoxelMask bone = voxels_between(volume, parameters.bone_from, kDensest);
   remove(dilated(bone, volume.geometry, 2), vessels);
-  return vessels;
+  return connected_parts(vessels, volume.geometry,
+                         voxels_of_ball(parameters.min_vessel, volume.geometry), vessels.size());
 }
 
 std::vector<Lesion> lesions_in(const Volume& volume, const Parameters& parameters) {
@@ -73,9 +74,7 @@ std::vector<Lesion> lesions_in(const Volume& volume, const Parameters& parameter
   const VoxelMask bone = voxels_between(volume, parameters.bone_from, kDensest);
   remove(dilated(bone, volume.geometry, 3), dense);
   VoxelMask vessels(dense.size(), 0);
-  for (const ConnectedPart& vessel :
-       connected_parts(vessel_voxels(volume, parameters), volume.geometry,
-                       voxels_of_ball(parameters.min_vessel, volume.geometry), dense.size())) {
+  for (const ConnectedPart& vessel : vessel_parts(volume, parameters)) {
     for (const Eigen::Vector3i& at : vessel) vessels[volume.offset(at[0], at[1], at[2])] = 1;
   }
   remove(dilated(vessels, volume.geometry, 3), dense);
@@ -120,9 +119,7 @@ Expected<Lesion> find_lesion(const Volume& volume, const Parameters& parameters)
 
 std::vector<ForbiddenZone> find_vessels(const Volume& volume, const Parameters& parameters) {
   std::vector<ForbiddenZone> zones;
-  const auto parts =
-      connected_parts(vessel_voxels(volume, parameters), volume.geometry,
-                      voxels_of_ball(parameters.min_vessel, volume.geometry), volume.voxels.size());
+  const auto parts = vessel_parts(volume, parameters);
   for (std::size_t i = 0; i < parts.size(); ++i) {
     std::vector<Eigen::Vector3d> points;
     for (const Eigen::Vector3i& at : parts[i]) {

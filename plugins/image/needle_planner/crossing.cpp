@@ -39,10 +39,11 @@ bool tissue_follows(const Volume& volume, const Vector3d& from, const Vector3d& 
 }
 
 std::optional<Ends> ends_along(const Volume& volume, const Vector3d& from,
-                               const Vector3d& direction, double bone_from) {
+                               const Vector3d& direction, double bone_from,
+                               const std::vector<ForbiddenZone>& markers) {
+  constexpr double kMarrow = 0.008;  // [m] between the two tables of one skull, at most
   const double step = 0.25 * volume.geometry.spacing.minCoeff();
   std::optional<double> skull;
-  bool bone_is_over = false;
   double before = hounsfield_at(volume, from);
   for (double t = step; t < kFarthest; t += step) {
     const Vector3d point = from + t * direction;
@@ -50,8 +51,13 @@ std::optional<Ends> ends_along(const Volume& volume, const Vector3d& from,
     const double value = hounsfield_at(volume, point);
     const auto falls_below = [&](double level) { return before > level && value <= level; };
     const auto place = [&](double level) { return t - step * (level - value) / (before - value); };
-    if (falls_below(bone_from) && !bone_is_over) skull = place(bone_from);
-    if (skull && value < 0.5 * bone_from) bone_is_over = true;  // what is as dense yet is a marker
+    const auto is_marker = [&] {
+      return std::ranges::any_of(
+          markers, [&](const auto& marker) { return clearance(point, point, marker) < 0; });
+    };
+    const bool bone_begins = before <= bone_from && value > bone_from;
+    if (skull && bone_begins && t - *skull > kMarrow && !is_marker()) return std::nullopt;
+    if (falls_below(bone_from) && !(skull && is_marker())) skull = place(bone_from);
     if (skull && falls_below(kSkin)) {
       if (tissue_follows(volume, from, direction, bone_from, t)) return std::nullopt;
       return Ends{*skull, place(kSkin)};
@@ -75,8 +81,9 @@ Vector3d normal_of(const std::vector<Vector3d>& points) {
 }  // namespace
 
 std::optional<Crossing> crossing_of(const Volume& volume, const Vector3d& target,
-                                    const Vector3d& direction, double bone_from) {
-  const auto ends = ends_along(volume, target, direction, bone_from);
+                                    const Vector3d& direction, double bone_from,
+                                    const std::vector<ForbiddenZone>& markers) {
+  const auto ends = ends_along(volume, target, direction, bone_from, markers);
   if (!ends) return std::nullopt;
   constexpr double kAside = 0.003;  // [m]
   constexpr int kLines = 8, kEnough = 6;
@@ -85,7 +92,7 @@ std::optional<Crossing> crossing_of(const Volume& volume, const Vector3d& target
   for (int i = 0; i < kLines; ++i) {
     const double angle = 2 * std::numbers::pi * i / kLines;
     const Vector3d from = target + kAside * (std::cos(angle) * across + std::sin(angle) * third);
-    const auto beside = ends_along(volume, from, direction, bone_from);
+    const auto beside = ends_along(volume, from, direction, bone_from, markers);
     if (beside) around.push_back(from + beside->skull * direction);
   }
   if (around.size() < kEnough) return std::nullopt;

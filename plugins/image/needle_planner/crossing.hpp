@@ -3,7 +3,9 @@
 
 #include <Eigen/Core>
 #include <optional>
+#include <vector>
 
+#include "armature/robot/geometry/forbidden_zone.hpp"
 #include "armature/volume/volume.hpp"
 
 namespace armature::image::needle_planner {
@@ -15,10 +17,11 @@ struct Crossing {
 };
 
 /// Of the line from `target` [m] along `direction` (unit). Nothing when there is no skull or no
-/// skin in that direction. Bone is denser than `bone_from`, skin than half-way to air; a marker on
-/// the skin counts as skin. The normal is that of the plane through the places where eight parallel
-/// lines 3 mm aside leave the skull.
+/// skin in that direction, or bone before the skull. Bone is denser than `bone_from`, skin than
+/// half-way to air; what is in the ball of a marker counts as skin. The normal is that of the plane
+/// through the places where eight parallel lines 3 mm aside leave the skull.
 std::optional<Crossing> crossing_of(const Volume& volume, const Eigen::Vector3d& target,
-                                    const Eigen::Vector3d& direction, double bone_from);
+                                    const Eigen::Vector3d& direction, double bone_from,
+                                    const std::vector<ForbiddenZone>& markers = {});
 
 }  // namespace armature::image::needle_planner

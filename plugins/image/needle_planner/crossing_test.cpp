@@ -39,7 +39,9 @@ TEST(Crossings, OfALineOffTheMiddleMeetTheSkullAslant) {
 TEST(Crossings, EndAtTheSkullAlsoUnderAMarker) {
   SmallHead with_marker;
   with_marker.with(ball({0, 0, kSmallSkin + 0.002}, 0.0015, 2500));
-  const auto crossing = crossing_of(with_marker.scan(), {0, 0, 0}, {0, 0, 1}, 600);
+  const Vector3d marker{0, 0, kSmallSkin + 0.002};
+  const auto crossing = crossing_of(with_marker.scan(), {0, 0, 0}, {0, 0, 1}, 600,
+                                    {{"marker", marker, marker, 0.0045}});
   ASSERT_TRUE(crossing);
   EXPECT_NEAR(crossing->skull.z(), kSmallSkull, 0.0006);
 }
@@ -59,6 +61,18 @@ TEST(Crossings, AreNoneThroughAnAirCellOfTheSkull) {
   const auto beside = crossing_of(head, {0, 0, 0}, aside, 600);
   ASSERT_TRUE(beside);
   EXPECT_NEAR(beside->skin.norm(), kSmallSkin, 0.0005);
+}
+
+TEST(Crossings, AreThoseOfTheLastBoneAndNoneBehindOtherBone) {
+  const auto along_z = [](const SmallHead& head) {
+    return crossing_of(head.scan(), {0, 0, 0}, {0, 0, 1}, 600);
+  };
+  EXPECT_FALSE(along_z(SmallHead{}.with(ball({0, 0, 0.02}, 0.004, 1000)))) << "a calcified falx";
+  SmallHead with_marrow;
+  with_marrow.solids[2] = ball({0, 0, -0.007}, 0.03, 35);
+  const auto crossing = along_z(with_marrow.with(ball({0, 0, 0.033}, 0.003, 150)));
+  ASSERT_TRUE(crossing);
+  EXPECT_NEAR(crossing->skull.z(), kSmallSkull, 0.0006);
 }
 
 TEST(Crossings, EndAtTheSkinUnderAMarkerThatAirSeparatesFromIt) {

@@ -45,7 +45,7 @@ std::optional<Way> way_along(const Vector3d& direction, const Vector3d& target,
                              const Parameters& parameters, Kept& kept) {
   const auto out = [](int& count) { return ++count, std::nullopt; };
   ++kept.sought;
-  const auto crossing = crossing_of(volume, target, direction, parameters.bone_from);
+  const auto crossing = crossing_of(volume, target, direction, parameters.bone_from, markers);
   if (!crossing) return out(kept.closed);
   Way way{.entry = crossing->skin,
           .length = (crossing->skin - target).norm(),

@@ -83,6 +83,19 @@ TEST(Ways, GoThroughNoMarkerNotEvenOutsideOfTheHead) {
   }
 }
 
+TEST(Ways, GoThroughNoBoneBeforeTheSkull) {
+  const Vector3d falx{0, 0, 0.02};
+  Parameters all = from_above();
+  all.cone = 30 * kRadPerDegree;
+  all.ways = 50;
+  const auto found =
+      ways_to({0, 0, 0}, SmallHead{}.with(ball(falx, 0.004, 1000)).scan(), {}, {}, all);
+  ASSERT_TRUE(found) << found.error().text;
+  for (const Way& way : *found) {
+    EXPECT_GT(clearance({0, 0, 0}, way.entry, {"falx", falx, falx, 0.0035}), 0);
+  }
+}
+
 TEST(Ways, StayInTheConeOfTheApproach) {
   Parameters aside = from_above();
   aside.approach = {0, 2, 0};

@@ -135,6 +135,24 @@ TEST_F(DicomSeries, MayLieAnyhowInThePatientAndInEveryUncompressedForm) {
   }
 }
 
+TEST_F(DicomSeries, WhoseOrientationIsRoundedHasTheSizeThatItsSpacingSays) {
+  Slice slice;
+  slice.along_row = {0.707, 0.707, 0};
+  slice.along_column = {-0.707, 0.707, 0};
+  for (int i = 0; i < 3; ++i) {
+    slice.number = i;
+    slice.position.z() = 5 + 1.25 * i;
+    write(slice);
+  }
+  const auto volume = read_volume(folder_.path());
+  ASSERT_TRUE(volume) << volume.error().text;
+  EXPECT_LT((volume->geometry.spacing - Vector3d{0.00075, 0.0005, 0.00125}).norm(), 1e-12);
+  slice.along_row = {0.7, 0.7, 0};
+  write(slice);
+  EXPECT_EQ(refusal(),
+            "/slice02.dcm': an axis of its Image Orientation (Patient) has length 0.9899, not 1");
+}
+
 TEST_F(DicomSeries, OfAHeadIsTheVolumeThatItWasWrittenFrom) {
   VolumeGeometry geometry{.size = {20, 18, 16}, .spacing = {0.00075, 0.0005, 0.00125}};
   geometry.origin = {-0.01, 0.02, 0.005};

@@ -133,6 +133,16 @@ Expected<DicomSlice> slice_of(DcmDataset& data) {
   slice.column_step = tags.number(DCM_PixelSpacing, 1, "Pixel Spacing");
   const auto format = pixel_format_of(tags);
   if (!format) return tl::unexpected{format.error()};
+  for (Vector3d* axis : {&slice.along_row, &slice.along_column}) {
+    constexpr double kRounded = 1e-3;  // cosines of three digits are off by that
+    if (std::abs(axis->norm() - 1) > kRounded) {
+      return refuse(
+          fmt::format("an axis of its Image Orientation (Patient) has length {:.4g}, "
+                      "not 1",
+                      axis->norm()));
+    }
+    axis->normalize();
+  }
   slice.gantry_tilt_deg = tags.optional_number(DCM_GantryDetectorTilt).value_or(0);
   Sint32 slices = 0;
   if (data.findAndGetSint32(DCM_ImagesInAcquisition, slices).good()) slice.of_acquisition = slices;

@@ -183,17 +183,21 @@ std::optional<FollowMonitor::Following> FollowMonitor::following() const {
                    .lag_s = best_lag()};
 }
 
-std::optional<FollowMonitor::Tremor> FollowMonitor::tremor() const {
+Expected<FollowMonitor::Tremor> FollowMonitor::tremor() const {
+  constexpr double kEnough_s = 2;  // in less the hand's own way leaks into the band
   double hand = 0, follower = 0, duration = 0;
   for (const Stretch& stretch : stretches(true)) {
     const double from = stretch.from + kSettles_s, lasts = stretch.to - from;
-    if (lasts <= 0) continue;
+    if (lasts < kEnough_s) continue;
     hand += lasts * band_power(between(hand_, from, stretch.to), kTremorFrom_hz, kTremorTo_hz);
     follower +=
         lasts * band_power(between(follower_, from, stretch.to), kTremorFrom_hz, kTremorTo_hz);
     duration += lasts;
   }
-  if (!(hand > 0)) return std::nullopt;
+  if (duration == 0) {
+    return refuse(
+        fmt::format("the clutch was never closed for {:g} s on end", kSettles_s + kEnough_s));
+  }
   return Tremor{
       .hand_m = std::sqrt(hand / duration),
       .follower_m = std::sqrt(follower / duration),

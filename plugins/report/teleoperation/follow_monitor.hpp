@@ -36,12 +36,13 @@ class FollowMonitor {
   static constexpr double kMinLag_s = -0.1, kMaxLag_s = 1.1;
   std::optional<Following> following() const;
 
-  /// What the hand's tremor is, and what the follower has of it; rms [m].
+  /// What the hand's tremor is, and what the follower has of it; rms [m]. Refused while the clutch
+  /// was never closed for long enough.
   struct Tremor {
     double hand_m = 0, follower_m = 0;
     double left_db = 0;  // the follower's, over scale times the hand's
   };
-  std::optional<Tremor> tremor() const;
+  Expected<Tremor> tremor() const;
 
   /// The farthest that the follower went while the clutch was open, once it stood.
   std::optional<double> open_motion_m() const;

@@ -125,6 +125,22 @@ TEST(FollowMonitor, ComparesTheTremorOfBothScaled) {
   EXPECT_NEAR(tremor->left_db, -20, 0.05) << "0.1 of half of it";
 }
 
+TEST(FollowMonitor, TheHandsOwnWayInAShortStretchIsNoTremor) {
+  const auto until = [](double end) {
+    return watched(
+        curve, [](double t) { return Vector3d{curve(t) + shaking(t, 2e-4)}; },
+        [](double t) { return Vector3d{0.5 * curve(t - 0.05) + shaking(t, 1e-5)}; }, end);
+  };
+  for (const double end : {7.6, 7.7, 8.0, 8.5, 9.4, 9.6}) {
+    const auto tremor = until(end).tremor();
+    ASSERT_TRUE(tremor) << end;
+    EXPECT_NEAR(tremor->left_db, -20, 0.1) << end;
+  }
+  const auto none = until(3.4).tremor();
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().text, "the clutch was never closed for 2.5 s on end");
+}
+
 TEST(FollowMonitor, TellsWhatTheFollowerDoesWithTheClutchOpen) {
   const Way standing = [](double) { return Vector3d{0, 0, 0}; };
   const auto monitor = watched(curve, curve, [](double t) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "alignment_monitor.hpp"
@@ -85,9 +86,9 @@ class TeleoperationReport final : public Component {
                             double unit = 1) {
       if (value) summary.metric(key, title, *value * unit);
     };
-    if (aligned_at_) {
-      metric("time_to_align_s", "time to align [s]", to_seconds(*aligned_at_ - *start_));
-      if (const auto& off = alignment_error_) {
+    if (first_aligned_at_) {
+      metric("time_to_align_s", "time to align [s]", to_seconds(*first_aligned_at_ - *start_));
+      if (const auto off = worst_alignment()) {
         metric("alignment_error_mm", "leader off the instrument [mm]", off->position_m, 1e3);
         metric("alignment_error_deg", "its rotation [deg]", off->angle_rad, kDegreesPerRad);
       }
@@ -99,12 +100,7 @@ class TeleoperationReport final : public Component {
       metric("tracking_worst_mm", "the largest [mm]", following->worst_m, 1e3);
       tell_lag(summary, following->lag_s);
     }
-    if (const auto tremor = follow_.tremor()) {
-      metric("hand_tremor_mm", "tremor of the hand, rms [mm]", tremor->hand_m, 1e3);
-      metric("follower_tremor_mm", "tremor of the follower's tip, rms [mm]", tremor->follower_m,
-             1e3);
-      tell_tremor_left(summary, *tremor);
-    }
+    if (closed_at_) tell_tremor(summary);
     metric("tip_speed_mm_s", "top speed of the follower's tip [mm/s]", follow_.top_speed_m_s(),
            1e3);
     metric("stopping_mm", "stops after the clutch opens within [mm]", follow_.stopping_m(), 1e3);
@@ -114,15 +110,32 @@ class TeleoperationReport final : public Component {
 
  private:
   /// Of a hand that does not tremble, what the follower has of it would be a ratio of noise.
-  void tell_tremor_left(Summary& summary, const FollowMonitor::Tremor& tremor) const {
-    constexpr const char *kKey = "tremor_db", *kTitle = "what is left of it, scaled [dB]";
-    if (tremor.hand_m >= parameters_.min_tremor) {
-      return summary.metric(kKey, kTitle, tremor.left_db);
+  void tell_tremor(Summary& summary) const {
+    constexpr const char *kHand = "hand_tremor_mm", *kHandTitle = "tremor of the hand, rms [mm]";
+    constexpr const char *kTip = "follower_tremor_mm",
+                         *kTipTitle = "tremor of the follower's tip, rms [mm]";
+    constexpr const char *kLeft = "tremor_db", *kLeftTitle = "what is left of it, scaled [dB]";
+    constexpr double kStands_db = -100;  // nothing that moves is as quiet
+    const auto tremor = follow_.tremor();
+    if (!tremor) {
+      for (const auto& [key, title] : {std::pair{kHand, kHandTitle}, std::pair{kTip, kTipTitle},
+                                       std::pair{kLeft, kLeftTitle}}) {
+        summary.not_measured(key, title, tremor.error().text);
+      }
+      return;
     }
-    summary.does_not_apply(
-        kKey, kTitle,
-        fmt::format("the hand trembles by {:.2g} mm only, 'min_tremor_mm' is {:g}",
-                    1e3 * tremor.hand_m, 1e3 * parameters_.min_tremor));
+    summary.metric(kHand, kHandTitle, 1e3 * tremor->hand_m);
+    summary.metric(kTip, kTipTitle, 1e3 * tremor->follower_m);
+    if (tremor->hand_m < parameters_.min_tremor) {
+      return summary.does_not_apply(
+          kLeft, kLeftTitle,
+          fmt::format("the hand trembles by {:.2g} mm only, 'min_tremor_mm' is {:g}",
+                      1e3 * tremor->hand_m, 1e3 * parameters_.min_tremor));
+    }
+    if (tremor->left_db > kStands_db) {
+      return summary.metric(kLeft, kLeftTitle, tremor->left_db);
+    }
+    summary.not_measured(kLeft, kLeftTitle, "the follower stood still");
   }
 
   static void tell_lag(Summary& summary, const Expected<double>& lag_s) {
@@ -153,13 +166,29 @@ class TeleoperationReport final : public Component {
     const Time at = stamp_of(state.header_().stamp_());
     const bool closed = phase == "teleoperating";
     follow_.see_clutch(closed, since_start(state.header_()));
+    if (aligned_at_ && (phase == "waiting" || phase == "aligning")) align_again();
     if (phase == "aligned" && !aligned_at_) aligned_at_ = at;
+    if (!first_aligned_at_) first_aligned_at_ = aligned_at_;
     if (closed && !closed_at_) closed_at_ = at;
     trouble_ = state.detail_();
     if (trouble_.empty()) held_since_.reset();
     if (!trouble_.empty() && !held_since_) held_since_ = at;
     refused_ = phase == "refused";
     aborted_ = phase == "aborted";
+  }
+
+  /// After `back`: what is watched begins anew when the hand closes the clutch the next time.
+  void align_again() {
+    earlier_alignment_ = worst_alignment();
+    aligned_at_.reset();
+    closed_at_.reset();
+    alignment_error_.reset();
+  }
+  std::optional<PoseResidual> worst_alignment() const {
+    if (!aligned_at_ || !alignment_error_) return earlier_alignment_;
+    const PoseResidual earlier = earlier_alignment_.value_or(PoseResidual{});
+    return PoseResidual{std::max(earlier.position_m, alignment_error_->position_m),
+                        std::max(earlier.angle_rad, alignment_error_->angle_rad)};
   }
 
   void read(const msg::TransformStamped& console) {
@@ -169,7 +198,7 @@ class TeleoperationReport final : public Component {
   }
 
   void read_rates(const msg::JointState& state) {
-    if (!is_aligning(state.header_())) return;
+    if (first_aligned_at_ && stamp_of(state.header_().stamp_()) > *first_aligned_at_) return;
     const auto v = joint_rates_of(leader_, state);
     if (!v) return complain("leader_js: " + v.error().text);
     alignment_.see_rates(*v);
@@ -203,9 +232,9 @@ class TeleoperationReport final : public Component {
   Parameters parameters_;
   AlignmentMonitor alignment_;
   FollowMonitor follow_;
-  std::optional<PoseResidual> alignment_error_;
+  std::optional<PoseResidual> alignment_error_, earlier_alignment_;  // the worst before `back`
   std::optional<Eigen::Isometry3d> follower_T_leader_;
-  std::optional<Time> start_, aligned_at_, closed_at_, held_since_;
+  std::optional<Time> start_, first_aligned_at_, aligned_at_, closed_at_, held_since_;
   std::string complaint_, trouble_;
   bool refused_ = false, aborted_ = false, held_ = false, finished_ = false;
   Ports ports_;

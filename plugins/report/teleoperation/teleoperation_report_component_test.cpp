@@ -126,13 +126,62 @@ TEST_F(TeleoperationReportTest, AStoryThatEndsWhileTheFollowerIsHeldDidNotGoWell
 
 TEST_F(TeleoperationReportTest, WithoutATremorNothingIsToldOfWhatIsLeftOfIt) {
   tell("teleoperating");
-  teleoperate(2000);
+  teleoperate(2600);
   const auto told = report_.figures();
   EXPECT_LT(told.metrics.at("hand_tremor_mm"), 0.01);
   EXPECT_FALSE(told.metrics.contains("tremor_db"));
   EXPECT_NE(told.inapplicable.at("tremor_db").find("mm only, 'min_tremor_mm' is 0.01"),
             std::string::npos)
       << told.inapplicable.at("tremor_db");
+}
+
+TEST_F(TeleoperationReportTest, TellsNoTremorOfAFollowerThatStandsOrFollowsForAMomentOnly) {
+  const auto shaking = [](double t) {
+    return Vector3d{hand_at(t) + Vector3d{0.0005 * std::sin(60 * t), 0, 0}};
+  };
+  const auto stand = [&](int samples) {
+    for (int i = 0; i < samples; ++i) {
+      sample(shaking(0.001 * sample_), hand_at(0.001 * sample_), {0.1, 0.2, 0.3});
+    }
+  };
+  tell("teleoperating");
+  stand(2000);
+  auto told = report_.figures();
+  for (const char* key : {"hand_tremor_mm", "follower_tremor_mm", "tremor_db"}) {
+    EXPECT_FALSE(told.metrics.contains(key));
+    EXPECT_EQ(told.unmeasured[key], "the clutch was never closed for 2.5 s on end") << key;
+  }
+  stand(700);
+  told = report_.figures();
+  EXPECT_GT(told.metrics.at("hand_tremor_mm"), 0.1);
+  EXPECT_FALSE(told.metrics.contains("tremor_db"));
+  EXPECT_EQ(told.unmeasured["tremor_db"], "the follower stood still");
+}
+
+TEST_F(TeleoperationReportTest, WatchesAnewAndMeasuresAgainWhenTheLeaderIsToAlignAgain) {
+  const auto align = [&](double off) {
+    tell("aligning");
+    for (int i = 0; i < 40; ++i) sample({0.1, 0, 0}, {0, 0, 0}, {0.1 + off, 0, 0});
+    tell("aligned");
+    for (int i = 0; i < 40; ++i) sample({0.2, 0, 0}, {0, 0, 0}, {0.1, 0, 0});
+  };
+  align(0.0002);
+  const double first_s = report_.figures().metrics.at("time_to_align_s");
+  tell("teleoperating");
+  teleoperate(2000);
+  tell("waiting");
+  teleoperate(1400);
+  EXPECT_FALSE(report_.component().finished()) << "it watches for 3 s from the next closing on";
+  align(0.0001);
+  EXPECT_NEAR(report_.figures().metrics.at("alignment_error_mm"), 0.2, 1e-9);
+  align(0.0003);
+  EXPECT_NEAR(report_.figures().metrics.at("alignment_error_mm"), 0.3, 1e-9) << "the worst";
+  EXPECT_EQ(report_.figures().metrics.at("time_to_align_s"), first_s);
+  tell("teleoperating");
+  teleoperate(2900);
+  EXPECT_FALSE(report_.component().finished());
+  teleoperate(200);
+  EXPECT_TRUE(report_.component().finished());
 }
 
 TEST_F(TeleoperationReportTest, TellsWhatHappensWithTheClutchOpen) {

@@ -14,17 +14,20 @@ void InsertionMonitor::see_tip(const Eigen::Vector3d& tip, const Eigen::Vector3d
   const Eigen::Vector3d from_entry = tip - needle_->entry;
   constexpr double kAtEntry = 0.001, kPastEntry = 1e-4;  // [m]: at the entry the approach ends
   // A needle that was drawn out may go past the head, at any height.
-  if (along.dot(from_entry) < -kAtEntry) entered_ = false;
+  if (along.dot(from_entry) < -kAtEntry) {
+    entered_ = false;
+    at_entry_.reset();
+  }
   if (!entered_ && from_entry.norm() > kAtEntry) return;
   entered_ = true;
   if (along.dot(from_entry) < kPastEntry) return;
-  if (!deviation_m_) at_entry_ = turning;
+  if (!at_entry_) at_entry_ = turning;
   const auto keep_largest = [](std::optional<double>& kept, double value) {
     kept = std::max(kept.value_or(0), value);
   };
   keep_largest(deviation_m_, (from_entry - along.dot(from_entry) * along).norm());
   keep_largest(tilt_rad_, std::atan2(axis.cross(along).norm(), axis.dot(along)));
-  const double turned = turning.size() > 0 ? (turning - at_entry_).cwiseAbs().maxCoeff() : 0;
+  const double turned = turning.size() > 0 ? (turning - *at_entry_).cwiseAbs().maxCoeff() : 0;
   keep_largest(turned_rad_, turned);
 }
 

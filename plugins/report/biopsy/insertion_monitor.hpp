@@ -18,7 +18,11 @@ struct RegisteredNeedle {
 /// Watches a needle along its registered line.
 class InsertionMonitor {
  public:
-  void see_registration(const RegisteredNeedle& needle) { needle_ = needle; }
+  /// One that is no line is none.
+  void see_registration(const RegisteredNeedle& needle) {
+    needle_.reset();
+    if (needle.entry.allFinite() && needle.target.allFinite()) needle_ = needle;
+  }
   /// The tip, the needle's direction (unit), and the values of the joints that turn.
   void see_tip(const Eigen::Vector3d& tip, const Eigen::Vector3d& axis, const JointVector& turning);
 
@@ -33,7 +37,7 @@ class InsertionMonitor {
   std::optional<RegisteredNeedle> needle_;
   std::optional<Eigen::Vector3d> tip_;
   std::optional<double> deviation_m_, tilt_rad_, turned_rad_;
-  JointVector at_entry_;
+  std::optional<JointVector> at_entry_;  // of the joints that turn
   bool entered_ = false;
 };
 

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace armature::report::biopsy {
 namespace {
 
@@ -43,6 +45,21 @@ TEST(InsertionMonitor, ANeedleThatWasDrawnOutIsWatchedNoMore) {
   monitor.see_tip({0, 0, 0}, kDown, joints(1, 2));
   monitor.see_tip({0.001, 0, -0.01}, kDown, joints(1, 2));
   EXPECT_NEAR(*monitor.line_deviation_m(), 0.001, 1e-12) << "a second time";
+}
+
+TEST(InsertionMonitor, JointsThatTurnedBetweenTwoInsertionsTurnedInNone) {
+  InsertionMonitor monitor;
+  monitor.see_registration(kNeedle);
+  for (const double z : {0.0, -0.03, 0.0, 0.05}) monitor.see_tip({0, 0, z}, kDown, joints(1, 2));
+  for (const double z : {0.05, 0.0, -0.03}) monitor.see_tip({0, 0, z}, kDown, joints(4, 4));
+  EXPECT_EQ(*monitor.turned_rad(), 0);
+}
+
+TEST(InsertionMonitor, ALineThatIsNoneIsNotMetByAnyNeedle) {
+  InsertionMonitor monitor;
+  monitor.see_registration({.entry = {NAN, 0, 0}, .target = {0, 0, -0.08}});
+  monitor.see_tip({0, 0, -0.03}, kDown, joints(1, 2));
+  EXPECT_FALSE(monitor.line_deviation_m());
 }
 
 TEST(InsertionMonitor, KeepsTheWorst) {

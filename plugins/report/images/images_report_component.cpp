@@ -19,15 +19,16 @@
 
 namespace armature::report::images {
 
-/// Of the true markers that were found, and how many were not.
+/// Of the true markers that were found, and how many were not, or with no numbers.
 struct MarkerErrors {
-  int found = 0, missing = 0;
+  int found = 0, missing = 0, unknown = 0;
   double sum2 = 0, max = 0, max_sigmas = 0, min_confidence = 1;  // [m2], [m]
 
   void add(double error, const msg::ImageMarker& marker) {
     ++found;
     sum2 += error * error;
     max = std::max(max, error);
+    if (!std::isfinite(marker.sigma_() + marker.confidence_())) ++unknown;
     max_sigmas = std::max(max_sigmas, error / std::max(marker.sigma_(), 1e-9));
     min_confidence = std::min(min_confidence, marker.confidence_());
   }
@@ -79,17 +80,22 @@ class ImagesReport final : public Component {
     if (errors_ && errors_->found > 0) {
       summary.metric("marker_error_rms_mm", "their error, rms [mm]",
                      1e3 * std::sqrt(errors_->sum2 / errors_->found));
-      constexpr const char *kWorst = "max_marker_error_mm", *kTitle = "the worst one's [mm]";
-      if (errors_->missing == 0) {
-        summary.metric(kWorst, kTitle, 1e3 * errors_->max);
-      } else {
-        summary.not_measured(
-            kWorst, kTitle,
-            fmt::format("{} of {} markers were not found to within {:g} mm", errors_->missing,
-                        errors_->found + errors_->missing, 1e3 * kSame));
-      }
-      summary.metric("max_marker_error_sigmas", "the worst in sigmas", errors_->max_sigmas);
-      summary.metric("min_marker_confidence", "the least confidence", errors_->min_confidence);
+      const std::string missing =
+          errors_->missing == 0
+              ? ""
+              : fmt::format("{} of {} markers were not found to within {:g} mm", errors_->missing,
+                            errors_->found + errors_->missing, 1e3 * kSame);
+      const std::string unknown = !missing.empty() || errors_->unknown == 0
+                                      ? missing
+                                      : "a marker's sigma or confidence is no number";
+      const auto tell = [&](const char* key, const char* title, double value,
+                            const std::string& why_not) {
+        if (why_not.empty()) return summary.metric(key, title, value);
+        summary.not_measured(key, title, why_not);
+      };
+      tell("max_marker_error_mm", "the worst one's [mm]", 1e3 * errors_->max, missing);
+      tell("max_marker_error_sigmas", "the worst in sigmas", errors_->max_sigmas, unknown);
+      tell("min_marker_confidence", "the least confidence", errors_->min_confidence, unknown);
     }
     if (lesion_error_) {
       summary.metric("lesion_error_mm", "error of the lesion's centre [mm]", 1e3 * *lesion_error_);
@@ -98,9 +104,12 @@ class ImagesReport final : public Component {
     const msg::NeedleWay& best = told_->ways_().front();
     summary.metric("lesion_volume_ml", "volume of the lesion [ml]", 1e6 * told_->lesion_volume_());
     summary.metric("ways_in", "ways in", static_cast<double>(told_->ways_().size()));
-    if (std::isfinite(best.vessel_distance_())) {
-      summary.metric("vessel_distance_mm", "the best one's distance from a vessel [mm]",
-                     1e3 * best.vessel_distance_());
+    constexpr const char *kVessel = "vessel_distance_mm",
+                         *kTitle = "the best one's distance from a vessel [mm]";
+    if (std::isinf(best.vessel_distance_())) {
+      summary.does_not_apply(kVessel, kTitle, "no vessel was found");
+    } else {
+      summary.metric(kVessel, kTitle, 1e3 * best.vessel_distance_());
     }
     summary.metric("way_length_mm", "its length [mm]", 1e3 * best.length_());
     summary.metric("skull_angle_deg", "its angle to the skull's normal [deg]",

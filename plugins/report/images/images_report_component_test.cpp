@@ -59,10 +59,12 @@ TEST_F(ImagesReportTest, TellsTheErrorsOfWhatWasFound) {
   auto figures = told.metrics;
   EXPECT_EQ(figures.at("markers_found"), 2);
   EXPECT_NEAR(figures.at("marker_error_rms_mm"), std::sqrt((0.04 + 0.01) / 2), 1e-9);
-  EXPECT_EQ(figures.count("max_marker_error_mm"), 0u) << "a marker that is not found is worse";
-  EXPECT_EQ(told.unmeasured.at("max_marker_error_mm"),
-            "1 of 3 markers were not found to within 3 mm");
-  EXPECT_NEAR(figures.at("max_marker_error_sigmas"), 2, 1e-9);
+  for (const char* key :
+       {"max_marker_error_mm", "max_marker_error_sigmas", "min_marker_confidence"}) {
+    EXPECT_EQ(figures.count(key), 0u) << "a marker that is not found is worse";
+    ASSERT_EQ(told.unmeasured.count(key), 1u) << key;
+    EXPECT_EQ(told.unmeasured.at(key), "1 of 3 markers were not found to within 3 mm");
+  }
   EXPECT_NEAR(figures.at("lesion_error_mm"), 0.3, 1e-9);
   EXPECT_NEAR(figures.at("lesion_volume_ml"), 0.9, 1e-9);
   EXPECT_NEAR(figures.at("vessel_distance_mm"), 9, 1e-9);
@@ -75,6 +77,22 @@ TEST_F(ImagesReportTest, TellsTheWorstErrorWhenAllMarkersWereFound) {
   report_.send("markers", markers);
   report_.step(0.1);
   EXPECT_NEAR(report_.figures().metrics.at("max_marker_error_mm"), 0.2, 1e-9);
+  EXPECT_NEAR(report_.figures().metrics.at("max_marker_error_sigmas"), 2, 1e-9);
+  EXPECT_NEAR(report_.figures().metrics.at("min_marker_confidence"), 0.9, 1e-9);
+  markers.markers_()[1].sigma_(NAN);
+  report_.send("markers", markers);
+  report_.step(0.2);
+  EXPECT_EQ(report_.figures().metrics.count("max_marker_error_sigmas"), 0u);
+  EXPECT_EQ(report_.figures().unmeasured["max_marker_error_sigmas"],
+            "a marker's sigma or confidence is no number");
+}
+
+TEST_F(ImagesReportTest, WithoutAVesselItsDistanceDoesNotApply) {
+  msg::NeedleWays far = ways();
+  far.ways_()[0].vessel_distance_(INFINITY);
+  report_.send("ways", far);
+  report_.step(0.1);
+  EXPECT_EQ(report_.figures().inapplicable["vessel_distance_mm"], "no vessel was found");
 }
 
 TEST_F(ImagesReportTest, TellsNothingOfWhatNobodyFound) {

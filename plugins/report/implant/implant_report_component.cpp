@@ -12,6 +12,7 @@
 
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/joint_messages.hpp"
+#include "armature/kinds/plan_of_task.hpp"
 #include "armature/kinds/registration_dialogue.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"
@@ -39,13 +40,6 @@ using Eigen::Vector3d;
 
 constexpr Duration kPeriod = seconds(0.02);
 constexpr double kMillimetres = 1e3;
-
-/// Whether a task that was given this plan asks that.
-bool is_asked_of(const msg::ImplantPlan& plan, const msg::RegistrationRequest& request) {
-  return plan.markers_() == request.image_markers_() &&
-         std::ranges::equal(plan.sites_(), request.targets_(), {},
-                            [](const msg::Pose& site) { return site.position_(); });
-}
 
 double rms(const std::vector<Vector3d>& errors) {
   double sum = 0;
@@ -92,7 +86,10 @@ class ImplantReport final : public Component {
     if (state_ == "aborted") summary.failed("aborted", "by the operator");
     if (state_ == "drilled" || state_ == "placed") tell_drilling(summary);
     if (state_ == "placed") tell_placing(summary);
-    summary.metric("final_speed_rad_s", "speed of the fastest joint at the end [rad/s]", speed_);
+    constexpr const char *kSpeed = "final_speed_rad_s",
+                         *kTitle = "speed of the fastest joint at the end [rad/s]";
+    if (speed_) return summary.metric(kSpeed, kTitle, *speed_);
+    summary.not_measured(kSpeed, kTitle, "no sample of the arm came");
   }
 
  private:
@@ -134,7 +131,8 @@ class ImplantReport final : public Component {
     if (const auto& error_m = threads_.max_error_m()) {
       summary.metric(kThread, kThreadTitle, kMillimetres * *error_m);
     } else {
-      summary.not_measured(kThread, kThreadTitle, "no handpiece told how far it turned");
+      summary.not_measured(kThread, kThreadTitle,
+                           "no handpiece told how far it turned, or not in numbers");
     }
   }
 
@@ -324,7 +322,9 @@ class ImplantReport final : public Component {
 
   void tell_smoothness(Summary& summary) const {
     tell_planned_turn(summary);
+    constexpr const char* kNoSample = "no sample of the arm came while it drilled";
     const auto degrees = [&](const char* key, const char* title, double radians) {
+      if (!smoothness_.has_samples()) return summary.not_measured(key, title, kNoSample);
       summary.metric(key, title, kDegreesPerRad * radians);
     };
     degrees("total_rotation_deg", "total rotation through the sites [deg]",
@@ -339,7 +339,7 @@ class ImplantReport final : public Component {
       return summary.metric(kJump, kTitle, smoothness_.acceleration_jump_of_peak());
     }
     if (!smoothness_.has_samples()) {
-      return summary.not_measured(kJump, kTitle, "no sample of the arm came while it drilled");
+      return summary.not_measured(kJump, kTitle, kNoSample);
     }
     summary.does_not_apply(
         kJump, kTitle,
@@ -391,7 +391,7 @@ class ImplantReport final : public Component {
   double planned_turn_ = 0;  // [rad] the greatest of a path with key poses
   std::optional<double> planned_jump_;
   std::string state_, trouble_;
-  double speed_ = 0;
+  std::optional<double> speed_;  // [rad/s] of the fastest joint, last
   bool finished_ = false;
   Ports ports_;
   OverheardRegistration registration_;

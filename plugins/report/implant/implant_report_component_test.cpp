@@ -360,8 +360,14 @@ TEST_F(ImplantReportTest, WithoutASampleOfTheDrillingItsTurnWasNotMeasured) {
   show_room();
   tell("drilled");
   report_.step(1);
-  EXPECT_EQ(report_.figures().unmeasured.at("acceleration_jump_of_peak"),
-            "no sample of the arm came while it drilled");
+  const auto told = report_.figures();
+  for (const char* key : {"acceleration_jump_of_peak", "total_rotation_deg",
+                          "peak_angular_velocity_deg_s", "peak_angular_acceleration_deg_s2"}) {
+    ASSERT_EQ(told.unmeasured.count(key), 1u) << key;
+    EXPECT_EQ(told.unmeasured.at(key), "no sample of the arm came while it drilled");
+    EXPECT_FALSE(told.metrics.contains(key));
+  }
+  EXPECT_FALSE(told.metrics.contains("final_speed_rad_s"));
   EXPECT_EQ(report_.figures().unmeasured.at("planned_turn_jump"),
             "the path through the last key poses was never seen");
 }

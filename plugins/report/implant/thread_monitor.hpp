@@ -18,13 +18,15 @@ class ThreadMonitor {
   }
   /// At one instant: where the file's tool is [m], and how far the handpiece has turned [rad].
   void see(const Eigen::Vector3d& tool, double angle);
-  /// [m] The most that an implant was ahead of its turns or behind them, if any was seen.
+  /// [m] The most that an implant was ahead of its turns or behind them, if any was seen, and no
+  /// angle was no number.
   const std::optional<double>& max_error_m() const { return max_error_m_; }
 
  private:
   std::optional<Thread> thread_;
   std::optional<double> begun_at_;  // its angle, when it was engaged
   std::optional<double> max_error_m_;
+  bool is_known_ = true;
 };
 
 }  // namespace armature::report::implant

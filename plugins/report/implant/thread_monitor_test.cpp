@@ -30,6 +30,9 @@ TEST(ThreadMonitor, TellsTheMostThatAnImplantWasAheadOfItsTurnsOrBehind) {
   monitor.engage(kThread);
   monitor.see(kThread.start + 0.001 * kThread.axis, 50);
   EXPECT_NEAR(*monitor.max_error_m(), 0.001, 1e-12) << "the next begins at its own angle";
+  monitor.see(kThread.start, NAN);
+  monitor.see(kThread.start, 50);
+  EXPECT_EQ(monitor.max_error_m(), std::nullopt) << "how far it had turned meanwhile is not known";
 }
 
 }  // namespace

@@ -55,13 +55,13 @@ class IncisionReport final : public Component {
   }
 
   void summarize(Summary& summary) const override {
-    if (samples_ == 0 && not_finite_ == 0) return;
+    if (samples_ == 0 && not_known_ == 0) return;
     const auto metric = [&](const char* key, const char* title, double value_m) {
-      if (not_finite_ == 0) return summary.metric(key, title, 1e3 * value_m);
+      if (not_known_ == 0) return summary.metric(key, title, 1e3 * value_m);
       summary.not_measured(
           key, title,
-          fmt::format("samples at which the shaft's distance from the incision was not finite: {}",
-                      not_finite_));
+          fmt::format("samples that tell no distance of the shaft from the incision: {}",
+                      not_known_));
     };
     metric("incision_deviation_mm", "shaft off the incision, at most [mm]", max_deviation_);
     metric("incision_deviation_rms_mm", "the same, rms [mm]",
@@ -87,13 +87,14 @@ class IncisionReport final : public Component {
     const auto q = joints_of(model_, message);
     if (!q) {
       complaint_ = "measured_js: " + q.error().text;
+      ++not_known_;
       return;
     }
     const Eigen::Isometry3d base_T_tool = forward_kinematics(model_, *q);
     const double deviation = centre_.deviation(base_T_tool), depth = centre_.depth(base_T_tool);
     if (!std::isfinite(deviation) || !std::isfinite(depth)) {
       complaint_ = "the shaft's distance from the incision is not finite";
-      ++not_finite_;
+      ++not_known_;
       return;
     }
     max_deviation_ = std::max(max_deviation_, deviation);
@@ -106,7 +107,7 @@ class IncisionReport final : public Component {
   RobotModel model_;
   RemoteCentre centre_;
   bool told_ = false;
-  std::size_t samples_ = 0, not_finite_ = 0;
+  std::size_t samples_ = 0, not_known_ = 0;
   double max_deviation_ = 0, squares_ = 0;                       // [m], [m2]
   double min_depth_ = std::numeric_limits<double>::infinity();   // [m]
   double max_depth_ = -std::numeric_limits<double>::infinity();  // [m]

@@ -74,7 +74,12 @@ TEST_F(IncisionReportTest, ADistanceThatIsNoNumberIsNotMeasuredAndNoGoalIsMetByI
   EXPECT_EQ(report_.status().reason, "the shaft's distance from the incision is not finite");
   EXPECT_TRUE(report_.figures().metrics.empty());
   EXPECT_EQ(report_.figures().unmeasured.at("incision_deviation_mm"),
-            "samples at which the shaft's distance from the incision was not finite: 1");
+            "samples that tell no distance of the shaft from the incision: 1");
+  JointVector broken = home_;
+  broken[2] = std::numeric_limits<double>::quiet_NaN();
+  sample(broken);
+  EXPECT_EQ(report_.figures().unmeasured.at("incision_deviation_mm"),
+            "samples that tell no distance of the shaft from the incision: 2");
 }
 
 TEST_F(IncisionReportTest, AnIncisionThatIsNoneIsSaidWithItsNumbers) {

@@ -209,13 +209,16 @@ class LampReport : public Component {
     if (asked_m_) following_.see_lamp(base_T_tool.translation(), light, *asked_m_, last_stamp_);
   }
 
-  /// The newest image whose landmarks are known already.
+  /// The newest image whose landmarks, and face if any is told, are known already.
   void keep_picture() {
     const msg::Image* image = ports_.left_image.latest();
     const msg::FaceLandmarks* landmarks = ports_.landmarks.latest();
     const msg::CameraInfo* info = ports_.left_info.latest();
     if (!image || !landmarks || !info) return;
-    if (stamp_of(image->header_().stamp_()) != stamp_of(landmarks->header_().stamp_())) return;
+    const Time stamp = stamp_of(image->header_().stamp_());
+    const msg::FacePose* face = ports_.face.latest();
+    if (stamp != stamp_of(landmarks->header_().stamp_())) return;
+    if (face && stamp != stamp_of(face->header_().stamp_())) return;
     if (image->data_().size() != std::size_t{image->width_()} * image->height_()) return;
     picture_.width = static_cast<int>(image->width_());
     picture_.height = static_cast<int>(image->height_());
@@ -228,12 +231,7 @@ class LampReport : public Component {
     for (std::size_t i = 0; landmarks->valid_() && i + 1 < left.size(); i += 2) {
       picture_.landmarks.emplace_back(left[i], left[i + 1]);
     }
-    keep_face();
-  }
-
-  void keep_face() {
     picture_.face.reset();
-    const msg::FacePose* face = ports_.face.latest();
     if (!face || !face->valid_() || picture_.landmarks.empty()) return;
     const Eigen::Vector3d across = to_eigen(face->right_eye_()) - to_eigen(face->left_eye_());
     picture_.face = CameraPicture::FaceAxes{.mouth = to_eigen(face->mouth_()),

@@ -11,6 +11,7 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/file_content.hpp"
 
 namespace armature::report::lamp_alignment {
 namespace {
@@ -248,6 +249,25 @@ TEST_F(LampReportTest, WritesWhatTheCameraSawAndHowTheErrorsWentDown) {
   tick();
   report_.component().write_files(folder);
   EXPECT_TRUE(std::filesystem::exists(folder / "left_camera.png"));
+
+  const std::string without_face = content_of(folder / "left_camera.png");
+  msg::FacePose face;  // of a picture before
+  write_header(face.header_(), Time{} + seconds(now_s_ - 1), "left_camera_optical");
+  face.valid_(true);
+  assign(face.mouth_(), Eigen::Vector3d{0, 0, 0.5});
+  assign(face.normal_(), Eigen::Vector3d{0, 0.6, -0.8});
+  assign(face.right_eye_(), Eigen::Vector3d{0.03, 0, 0.5});
+  assign(face.left_eye_(), Eigen::Vector3d{-0.03, 0, 0.5});
+  const auto picture_with = [&] {
+    report_.send("landmarks", landmarks);
+    report_.send("face", face);
+    tick();
+    report_.component().write_files(folder);
+    return content_of(folder / "left_camera.png");
+  };
+  EXPECT_EQ(picture_with(), without_face);
+  face.header_() = image.header_();
+  EXPECT_NE(picture_with(), without_face);
   std::filesystem::remove_all(folder);
 }
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <cmath>
 #include <optional>
 
 #include "armature/kinds/joint_messages.hpp"
@@ -31,7 +32,9 @@ class Threading final : public Component {
   void step(Time now) override {
     const msg::JointState* handpiece = ports_.handpiece_js.latest();
     if (!handpiece || handpiece->position_().empty()) return;
-    follow_thread(handpiece->position_().front());
+    const double angle = handpiece->position_().front();
+    if (!std::isfinite(angle)) return degraded("the angle of the handpiece is no number");
+    follow_thread(angle);
     if (!ports_.measured_js.latest()) return;
     ReasonText wrong = read_joints(robot_, *ports_.measured_js.latest(), q_);
     if (wrong.empty()) wrong = read_joint_rates(robot_, *ports_.measured_js.latest(), v_);

@@ -95,6 +95,20 @@ TEST_F(ThreadingTest, AThreadThatIsNoneIsToldAndTurnsNothing) {
   EXPECT_TRUE(step()) << "it is over";
 }
 
+TEST_F(ThreadingTest, AHandpieceWhoseAngleIsNoNumberIsWaitedForAndTheThreadFollowedThen) {
+  arm_at(q_, JointVector::Zero(7));
+  handpiece_at(1);
+  ASSERT_TRUE(step());
+  engage(0.001);
+  handpiece_at(NAN);
+  EXPECT_FALSE(step());
+  EXPECT_EQ(bench_.status().reason, "the angle of the handpiece is no number");
+  handpiece_at(1);
+  const auto told = step();
+  ASSERT_TRUE(told);
+  EXPECT_NEAR(told->position_()[0], 1, 1e-9);
+}
+
 TEST_F(ThreadingTest, AnArmThatIsSilentTurnsNothing) {
   handpiece_at(1);
   arm_at(q_, JointVector::Zero(7));

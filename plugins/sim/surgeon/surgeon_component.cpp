@@ -74,7 +74,8 @@ class Surgeon final : public Component {
     const double hand_t = t - paused_s_;
     move(hand_t, now);
     auto clutch = ports_.clutch.loan();
-    clutch->data_(hand_.clutch_closed(t));
+    // The clutch goes with the hand's way; what is held waits for it to open while the hand rests.
+    clutch->data_(hand_.clutch_closed(is_told("held") ? t : hand_t));
     clutch.publish();
     auto intended = ports_.intended_cp.loan();
     write_header(intended->header_(), now, kBaseFrame);

@@ -3,6 +3,8 @@
 // the leader is aligned, 3. a hand that the leader cannot follow, or that falls silent.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
@@ -227,6 +229,41 @@ TEST_F(SurgeonTest, TheHandRestsWhileTheTaskIsHeldAndGoesOnWhereItWas) {
           << "it does not jump";
     }
   }
+}
+
+TEST_F(SurgeonTest, TheClutchIsOpenWhileTheHandMovesOnHoweverLongItHasRestedBefore) {
+  make("tremor_mm: 0, curve_hz: 0, clutch_opens_s: 3, clutch_open_for_s: 1");
+  align();
+  steps(2000);
+  tell("teleoperating", "the instrument trails");
+  steps(1500);
+  tell("teleoperating");
+  bench_->take<msg::JointState>("hand_js");
+  bench_->take<msg::Bool>("clutch");
+  steps(3000);
+  const auto hand = bench_->take<msg::JointState>("hand_js");
+  const auto clutch = bench_->take<msg::Bool>("clutch");
+  ASSERT_EQ(hand.size(), clutch.size());
+  double moved_m = 0;
+  for (std::size_t i = 1; i < hand.size(); ++i) {
+    const double step_m =
+        (hand_at(hand[i]).translation() - hand_at(hand[i - 1]).translation()).norm();
+    if (clutch[i].data_()) {
+      EXPECT_LT(step_m, 1e-9) << i;
+    } else {
+      moved_m += step_m;
+    }
+  }
+  EXPECT_NEAR(moved_m, std::hypot(0.015, 0.010), 1e-6);
+}
+
+TEST_F(SurgeonTest, AHeldFollowerIsLetGoByTheClutchWhileTheHandRests) {
+  make("clutch_opens_s: 3");
+  align();
+  steps(2000);
+  tell("held", "the leader jumped");
+  steps(1500);
+  EXPECT_FALSE(bench_->take<msg::Bool>("clutch").back().data_());
 }
 
 TEST_F(SurgeonTest, TheHandComesToRestWhenTheRunStops) {

@@ -210,6 +210,15 @@ TEST_F(OperatorTest, AtATerminalNothingIsSaidWithoutEnterAndARefusalWasSeen) {
   EXPECT_THAT(run.err(), Not(HasSubstr("the operator says abort")));
 }
 
+TEST_F(OperatorTest, IsToldThatTheTaskWhoseQuestionStandsThereIsGone) {
+  Command run{operated_biopsy(), {}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
+  Terminal dialogue{biopsy("operator")};
+  ASSERT_TRUE(dialogue.shows("c(onfirm) 'approach'"));
+  run.signal(SIGKILL);
+  EXPECT_TRUE(dialogue.shows("the task of 'sr1_biopsy' is gone"));
+}
+
 TEST_F(OperatorTest, WhereNothingRunsHeIsToldSo) {
   std::vector<std::string> command = biopsy("operator");
   command.insert(command.end(), {"--say", "abort", "--timeout", "0.5"});

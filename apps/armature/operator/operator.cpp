@@ -133,7 +133,7 @@ class Dialogue {
   void show_if_changed() {
     link_.look();
     const auto state = link_.state();
-    if (!state) return;
+    if (!state) return show_that_it_is_gone();
     const std::string summary = summary_of(*state);
     if (summary == shown_) return;
     shown_ = summary;
@@ -143,6 +143,13 @@ class Dialogue {
       print_out("c(onfirm) '{}', p(ause), b(ack), a(bort)?\n", terminal_text(asks));
     }
     std::fflush(standard_output());
+  }
+
+  /// A question of a task that is gone waits for no answer.
+  void show_that_it_is_gone() {
+    if (!link_.tasks().empty() || std::exchange(shown_, {}).empty()) return;
+    question_.show("", Steady::now());
+    fmt::print(stderr, "armature: the task of '{}' is gone\n", deployment_.name);
   }
 
   /// Shows every change, and says what is typed, until the end of input. Who sits at a terminal has

@@ -98,7 +98,10 @@ TEST(PaperReport, ShowsEveryRowWithItsVerdict) {
   const std::string text = to_text(declaration, judge(declaration, results, true));
   EXPECT_THAT(text, HasSubstr("misprint: digits"));
   EXPECT_THAT(text, HasSubstr("FAILS: at most 2"));
-  EXPECT_THAT(text, HasSubstr("2 rows: 1 hold, 1 fail; 1 misprints named, 0 differ"));
+  EXPECT_THAT(text, HasSubstr("2 rows: 1 hold, 1 fail; 1 misprints named, 0 differ\n"));
+  results.value("t", "c", 4);
+  EXPECT_THAT(to_text(declaration, judge(declaration, results, true)),
+              HasSubstr("2 rows: 1 hold, 1 fail; 1 misprints named, 0 differ; 1 faults\n"));
 }
 
 }  // namespace

@@ -109,9 +109,11 @@ std::string to_text(const Declaration& declaration, const Judgement& judgement) 
     text += coloured("FAILS: " + fault, Tone::bad, standard_output()) + '\n';
   }
   const int failed_rows = judgement.failed() - static_cast<int>(judgement.faults.size());
-  return text + fmt::format("{} rows: {} hold, {} fail; {} misprints named, {} differ\n",
-                            judgement.rows(), judgement.rows() - failed_rows, judgement.failed(),
-                            judgement.misprints(), judgement.differ());
+  return text +
+         fmt::format(
+             "{} rows: {} hold, {} fail; {} misprints named, {} differ{}\n", judgement.rows(),
+             judgement.rows() - failed_rows, failed_rows, judgement.misprints(), judgement.differ(),
+             judgement.faults.empty() ? "" : fmt::format("; {} faults", judgement.faults.size()));
 }
 
 nlohmann::ordered_json to_json(const Declaration& declaration, const Judgement& judgement) {

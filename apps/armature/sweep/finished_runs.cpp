@@ -108,9 +108,13 @@ void FinishedRuns::add(const RunKey& key, Json report) {
   if (file_ && status != kCrashed && status != kTimedOut) {
     const Json line{{"fingerprint", key.fingerprint}, {"seed", key.seed}, {"report", report}};
     const std::string text = json_text(line) + '\n';
-    if (write(descriptor_, text.data(), text.size()) != static_cast<ssize_t>(text.size())) {
-      throw std::runtime_error(
-          fmt::format("cannot write {}: {}", file_->string(), std::strerror(errno)));
+    for (std::size_t done = 0; done < text.size();) {
+      const ssize_t count = write(descriptor_, text.data() + done, text.size() - done);
+      if (count < 0) {
+        throw std::runtime_error(
+            fmt::format("cannot write {}: {}", file_->string(), std::strerror(errno)));
+      }
+      done += static_cast<std::size_t>(count);
     }
   }
   reports_[key] = std::move(report);

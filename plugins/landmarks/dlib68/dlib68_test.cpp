@@ -109,6 +109,8 @@ TEST(Dlib68, FindsAFaceThatIsNotWhereItWas) {
   StereoFaceFinder::State state;
   ASSERT_TRUE(find(state, drawn_face(placed(-0.1, -0.08, 0.7))));
   const auto pose = placed(0.12, 0.05, 0.5);
+  EXPECT_EQ(find(state, drawn_face(pose)).error().text,
+            "the face is not in the left image, another one is");
   const auto found = find(state, drawn_face(pose));
   ASSERT_TRUE(found) << found.error().text;
   EXPECT_LT(worst_error(*found, pose), 4.0);

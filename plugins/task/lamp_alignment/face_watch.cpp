@@ -48,6 +48,7 @@ bool FaceWatch::see(const FaceEstimate& estimate) {
                      estimate.normal_rate.norm() > parameters_.moving_turn;
   moving_ = moves ? moving_ + 1 : 0;
   still_ = moves ? 0 : still_ + 1;
+  is_found_anew_ = is_found_anew_ || (latest_ && estimate.measurements <= latest_->measurements);
   latest_ = estimate;
   latest_->velocity = shortened(estimate.velocity, parameters_.max_speed);
   latest_->normal_rate = shortened(estimate.normal_rate, parameters_.max_turn);

@@ -46,6 +46,9 @@ class FaceWatch {
   bool is_fresh(Time now) const { return latest_ && !is_longer_than_lost(latest_->stamp, now); }
   /// Two estimates in a row say so.
   bool begins_to_move() const;
+  /// It was lost, or jumped, since `know_it`, and was found again: it may be another one.
+  bool is_found_anew() const { return is_found_anew_; }
+  void know_it() { is_found_anew_ = false; }
   /// The newest estimate says so; all of the newest `settle_frames` do.
   bool is_still() const { return still_ > 0; }
   bool stays_still() const { return still_ >= parameters_.settle_frames; }
@@ -75,7 +78,8 @@ class FaceWatch {
 
   Parameters parameters_;
   std::optional<FaceEstimate> latest_;
-  int measurements_ = 0;        // of the newest estimate, confirmed or not
+  int measurements_ = 0;  // of the newest estimate, confirmed or not
+  bool is_found_anew_ = false;
   int moving_ = 0, still_ = 0;  // estimates in a row that say so
   Time picture_at_, picture_came_;
   Time face_at_;       // the newest picture with a face, believed or not

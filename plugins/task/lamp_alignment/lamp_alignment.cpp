@@ -109,7 +109,7 @@ void LampAlignment::step(Time now) {
   if (!capture_) captures_since_.reset();
   if (capture_ && !captures_since_) captures_since_ = now;
   blindness_ = captures_since_ ? face_.blindness(*captures_since_, now) : "";
-  if (procedure_.paused()) return;
+  if (procedure_.paused() || leaves_face_found_elsewhere(now)) return;
   switch (phase_) {
     case Phase::checking_light: aligns_with_seen_face(Step::light, now); break;
     case Phase::searching: search(now); break;
@@ -130,15 +130,45 @@ void LampAlignment::step(Time now) {
 }
 
 std::optional<MotionGoal> LampAlignment::outgoing_goal(Time now) {
-  const bool to_a_face =
-      phase_ == Phase::aligning || phase_ == Phase::following || phase_ == Phase::unreachable;
-  const bool sets_out = goals_.state() == GoalState::waiting;
-  return to_a_face && sets_out && !is_fresh(now) ? std::nullopt : goals_.outgoing(now);
+  if (is_at_a_face() && goals_.state() == GoalState::waiting) {
+    // Behind an outage a few estimates tell whether the patient is still there.
+    const bool is_old = to_seconds(now - goal_estimate_->stamp) > parameters_.lost;
+    if (!is_fresh(now) || (is_old && recent_.count() < few_)) return std::nullopt;
+  }
+  return goals_.outgoing(now);
 }
 
 bool LampAlignment::may_align() {
-  if (step() != Step::alignment) procedure_.enter(static_cast<std::size_t>(Step::alignment));
+  if (step() != Step::alignment) {
+    procedure_.enter(static_cast<std::size_t>(Step::alignment));
+    asked_about_ = latest();
+  } else if (is_elsewhere(*asked_about_)) {
+    ask_whose_face(*asked_about_);
+  }
   return procedure_.may_act();
+}
+
+bool LampAlignment::is_elsewhere(const FaceEstimate& before) const {
+  return (latest().mouth - before.mouth).norm() > kAlong.position_m;
+}
+
+void LampAlignment::ask_whose_face(const FaceEstimate& before) {
+  trouble_ = fmt::format("the face is {:.0f} mm from where it was: is it the patient's?",
+                         1e3 * (latest().mouth - before.mouth).norm());
+  procedure_.enter(static_cast<std::size_t>(Step::alignment));
+  asked_about_ = latest();
+}
+
+bool LampAlignment::leaves_face_found_elsewhere(Time now) {
+  if (!is_at_a_face() || !face_.is_found_anew() || !is_fresh(now)) return false;
+  face_.know_it();
+  if (!is_elsewhere(*goal_estimate_)) return false;
+  goals_.leave();
+  ask_whose_face(*goal_estimate_);
+  phase_ = Phase::searching;
+  looking_ = capture_ = true;
+  looking_since_ = latest().stamp;
+  return true;
 }
 
 bool LampAlignment::aligns_with_seen_face(Step before, Time now) {
@@ -157,10 +187,13 @@ bool LampAlignment::aligns_with_seen_face(Step before, Time now) {
 }
 
 void LampAlignment::align_with(const FaceEstimate& estimate, Phase phase, Time now) {
-  phase_ = phase;
+  // Who is far is gone to by a planned way, before the lamp goes along with him.
+  const bool is_far = goal_estimate_ && kAlong.left_by(estimate, *goal_estimate_);
+  phase_ = is_far && phase == Phase::following ? Phase::aligning : phase;
   goes_along_ = false;
   capture_ = true;
   trouble_.clear();
+  face_.know_it();
   goal_estimate_ = estimate;
   goal_set_at_ = now;
   recent_.clear();
@@ -190,7 +223,8 @@ void LampAlignment::go_along(Time now) {
   phase_ = Phase::following;
   if (goals_.state() == GoalState::failed) return align_with(latest(), phase_, now);
   const Time last = latest().stamp + seconds(parameters_.max_prediction);
-  if (face_.stays_still() || now > last) return end_going_along(now);
+  const bool is_far = kAlong.left_by(latest().at(now), *goal_estimate_);
+  if (face_.stays_still() || now > last || is_far) return end_going_along(now);
   goes_along_ = true;
   goal_estimate_ = latest().at(now);
   goal_set_at_ = now;

@@ -64,8 +64,16 @@ class LampAlignment {
   Step step() const { return static_cast<Step>(procedure_.step()); }
   /// The newest estimate may be set out for: it is no older than `lost_s`, and the lamp not blind.
   bool is_fresh(Time now) const { return blindness_.empty() && face_.is_fresh(now); }
-  /// Whether the arm may set out to align with a face that is seen; asks the operator if need be.
+  /// A face is what it is about, and none is searched for.
+  bool is_at_a_face() const { return phase_ >= Phase::aligning && phase_ <= Phase::unreachable; }
+  /// Whether the arm may set out to align with a face that is seen; asks the operator if need be,
+  /// and anew where that face is elsewhere by then.
   bool may_align();
+  /// So far from `before` it may be another one.
+  bool is_elsewhere(const FaceEstimate& before) const;
+  void ask_whose_face(const FaceEstimate& before);
+  /// The face that it is about was found anew, elsewhere: it stops, and asks.
+  bool leaves_face_found_elsewhere(Time now);
   /// A face has been seen since it looks, and is not lost again: it aligns with that one, or asks.
   /// Of one that is lost it asks no more, and is back in `before`.
   bool aligns_with_seen_face(Step before, Time now);
@@ -112,6 +120,7 @@ class LampAlignment {
   PursuedGoal goals_;
   FaceAverage at_rest_;  // estimates since the arm came to rest
   std::optional<FaceEstimate> goal_estimate_;
+  std::optional<FaceEstimate> asked_about_;  // by the alignment's question
   FaceAverage recent_;       // estimates since the goal was set, the newest moved_frames
   bool goes_along_ = false;  // with the patient, in tracking mode
   Phase phase_ = Phase::checking_light;

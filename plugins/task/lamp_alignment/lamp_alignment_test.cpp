@@ -108,6 +108,30 @@ TEST_F(LampAlignmentTest, GoesAlongWithAPatientWhoMovesAndHoldsWhereHeStops) {
   EXPECT_NEAR((*goals_.back().focus - mouth_).norm(), 0, 0.002);
 }
 
+TEST_F(LampAlignmentTest, AFaceThatIsElsewhereAtOnceIsNotGoneAlongWithBeforeTheLampIsNearIt) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  for (const bool goes_on : {false, true}) {
+    velocity_ = {0, 0.05, 0};
+    for (int k = 0; k < 25; ++k) {
+      mouth_ += 0.02 * velocity_;
+      tick();
+    }
+    ASSERT_EQ(goals_.back().mode, MotionMode::tracking);
+    const std::size_t under_way = goals_.size();
+    const Eigen::Vector3d was_at = mouth_;
+    mouth_.y() += 0.3;
+    if (!goes_on) velocity_.setZero();
+    run(0.9);
+    for (std::size_t i = under_way; i < goals_.size(); ++i) {
+      EXPECT_TRUE(goals_[i].mode == MotionMode::planned || (*goals_[i].focus - was_at).norm() < 0.1)
+          << "goal " << i;
+    }
+    velocity_.setZero();
+    ASSERT_TRUE(run_until(Phase::holding, 10));
+    EXPECT_NEAR((*goals_.back().focus - mouth_).norm(), 0, 0.003);
+  }
+}
+
 TEST_F(LampAlignmentTest, GoesAlongAlsoWhenItHasBegunToGoToWhereHeWas) {
   ASSERT_TRUE(run_until(Phase::holding, 15));
   mouth_.y() += 0.015;  // as an estimate tells it that takes him to be still

@@ -174,6 +174,20 @@ TEST_F(LampWithALateMotionTest, WhoAnswersWhenTheCamerasHaveFailedIsSentToNoFace
   EXPECT_TRUE(run_until(Phase::holding, 15));
 }
 
+TEST_F(LampWithALateMotionTest, WhoAnswersWhenTheCamerasComeBackIsSentToWhereThePatientIsByThen) {
+  while (!looks_ahead()) tick();
+  answers_ = false;
+  send_to_the_face();
+  has_cameras_ = false;
+  run(600);
+  answers_ = has_cameras_ = true;
+  mouth_.y() += 0.1;
+  const std::size_t goals = goals_.size();
+  EXPECT_TRUE(run_until(Phase::holding, 15));
+  for (std::size_t i = goals; i < goals_.size(); ++i)
+    EXPECT_LT((*goals_[i].focus - mouth_).norm(), 0.01) << "goal " << i;
+}
+
 TEST_F(LampWithALateMotionTest, WhoAnswersWhenThePatientHasGoneHelpsToSearch) {
   while (!looks_ahead()) tick();
   answers_ = false;

@@ -242,6 +242,80 @@ TEST_F(OperatedLampTest, WhileTheLampIsStoppedBackAndAbortAreRefused) {
   EXPECT_EQ(say("abort"), "");
 }
 
+TEST_F(OperatedLampTest, AFaceThatIsFoundAnewElsewhereIsNotGoneToBeforeItIsConfirmed) {
+  noise_m_ = 0;
+  confirm("search");
+  confirm("alignment");
+  ASSERT_TRUE(run_until(Phase::holding, 20));
+  const std::size_t goals = goals_.size();
+  mouth_.y() += 0.3;
+  measurements_ = 0;
+  run(10);
+  EXPECT_EQ(goals_.size(), goals);
+  EXPECT_EQ(asked(), "alignment");
+  EXPECT_EQ(task_.trouble(), "the face is 300 mm from where it was: is it the patient's?");
+  confirm("alignment");
+  ASSERT_TRUE(run_until(Phase::holding, 10));
+  EXPECT_NEAR((*goals_.back().focus - mouth_).norm(), 0, 0.003);
+  EXPECT_EQ(task_.trouble(), "");
+}
+
+TEST_F(OperatedLampTest, OnTheWayItStopsForAFaceThatIsFoundAnewElsewhere) {
+  confirm("search");
+  run(20);
+  confirm("alignment");
+  run(0.3);
+  mouth_.y() += 0.3;
+  measurements_ = 0;
+  for (int i = 0; i < 1000 && asked().empty(); ++i) tick();
+  EXPECT_EQ(asked(), "alignment");
+  EXPECT_EQ(goals_.back().mode, MotionMode::pause);
+  present_ = false;
+  run(5);
+  EXPECT_EQ(asked(), "search") << "that one has gone, too";
+  EXPECT_EQ(goals_.back().mode, MotionMode::pause);
+  present_ = true;
+  confirm("search");
+  run(20);
+  const ToolPose view = lamp_;
+  confirm("alignment");
+  EXPECT_TRUE(run_until(Phase::holding, 20));
+  EXPECT_EQ(say("abort"), "");
+  EXPECT_TRUE(run_until(Phase::aborted, 5));
+  EXPECT_EQ(lamp_.position, view.position);
+}
+
+TEST_F(OperatedLampTest, AFaceThatIsFoundAnewWhereThePatientWasIsFollowedWithoutAQuestion) {
+  confirm("search");
+  confirm("alignment");
+  ASSERT_TRUE(run_until(Phase::holding, 20));
+  mouth_.y() += 0.05;
+  measurements_ = 0;
+  run(0.5);
+  EXPECT_EQ(asked(), "");
+  ASSERT_TRUE(run_until(Phase::holding, 10));
+  mouth_.y() += 0.15;
+  run(1);
+  EXPECT_EQ(asked(), "") << "who moves far while he is seen is the patient";
+}
+
+TEST_F(OperatedLampTest, AWordThatWasMeantForAFaceElsewhereConfirmsNoOtherOne) {
+  noise_m_ = 0;
+  confirm("search");
+  run(20);
+  ASSERT_EQ(asked(), "alignment");
+  const std::size_t goals = goals_.size();
+  while (ticks_ % 5 != 4) tick();
+  mouth_.y() += 0.3;
+  EXPECT_EQ(say("confirm", "alignment"), "");
+  run(5);
+  EXPECT_EQ(goals_.size(), goals);
+  EXPECT_EQ(asked(), "alignment");
+  EXPECT_EQ(task_.trouble(), "the face is 300 mm from where it was: is it the patient's?");
+  confirm("alignment");
+  EXPECT_TRUE(run_until(Phase::holding, 20));
+}
+
 TEST_F(OperatedLampTest, AbortedInTheSearchItStaysWhereItIs) {
   confirm("search");
   run(0.5);

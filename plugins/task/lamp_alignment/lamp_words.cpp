@@ -15,8 +15,8 @@ Expected<void> LampAlignment::hear(const OperatorCommand& command, Time now) {
 
 /// A way to a face that was interrupted is not gone to its end once that face is lost.
 Expected<void> LampAlignment::may_resume(Time now) const {
-  const bool interrupted =
-      goals_.state() == GoalState::pausing || goals_.state() == GoalState::paused;
+  const bool pauses = goals_.state() == GoalState::pausing || goals_.state() == GoalState::paused;
+  const bool interrupted = pauses && !goals_.left();
   const bool to_a_face = step() == Step::alignment && phase_ != Phase::aborting;
   if (!interrupted || !to_a_face || is_fresh(now)) return {};
   return refuse(fmt::format(

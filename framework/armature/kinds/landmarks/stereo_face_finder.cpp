@@ -141,7 +141,13 @@ std::optional<Reason> StereoFaceFinder::detect_both(const ImageView& left, const
   };
   const Faces in_left = find_left(left, box(last.left));
   if (!in_left) return in_left.error();
+  // A pair that misses the face in the left picture leaves it there for the next one.
+  const bool is_kept =
+      last.left && last.right &&
+      (!*in_left || distance((*in_left)->box, last.left->where.box) > last.left->where.box.width);
+  if (is_kept) state.left = last.left;
   if (!*in_left) return Reason{"no face in the left image"};
+  if (is_kept) return Reason{"the face is not in the left image, another one is"};
   state.left = State::Face{.where = **in_left};
   const Faces in_right = find_right(right, box(last.right), state.left->where.box);
   if (!in_right) return in_right.error();

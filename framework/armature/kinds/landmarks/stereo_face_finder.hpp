@@ -25,10 +25,10 @@ double mean_intensity(const ImageView& image, const PixelBox& box);
 /// between its landmarks are sought where those of the last pair say that the face is.
 ///
 /// Of several faces in the left picture it keeps to the one that it has: the nearest to the last
-/// one, and the largest where there was none. In the right picture it takes the same face: not
-/// further right than in the left one; near the last one, where that has about the same rows and
-/// size; else the one whose rows and size are most alike. The detector's score chooses nothing: it
-/// changes from picture to picture.
+/// one, also where one pair misses that, and the largest where there was none. In the right picture
+/// it takes the same face: not further right than in the left one; near the last one, where that
+/// has about the same rows and size; else the one whose rows and size are most alike. The
+/// detector's score chooses nothing: it changes from picture to picture.
 class StereoFaceFinder {
  public:
   /// Where the face was last, which the caller owns; value-initialised: it is sought everywhere.
@@ -54,7 +54,7 @@ class StereoFaceFinder {
 
   /// The landmarks in both pictures, or why not ("no face in the left image"). A face that is
   /// further right in the right picture is none of this pair: the reason asks whether the cameras
-  /// are exchanged. A face that is not found is forgotten. Allocates.
+  /// are exchanged. A face that two pairs have missed is forgotten. Allocates.
   Expected<StereoLandmarks> find(const ImageView& left, const ImageView& right, State& state);
 
  private:

@@ -111,10 +111,30 @@ TEST_F(StereoFaceFinderTest, LooksWhereTheFaceWasAndThenEverywhere) {
   EXPECT_EQ(detector_.searched[1].box.left, 110);
   detector_.left = {face(20, 10, 60)};
   detector_.right = {face(2, 10, 60)};
+  EXPECT_FALSE(find());
   const auto found = find();
   ASSERT_TRUE(found) << found.error().text;
   EXPECT_EQ(found->left.box.left, 20);
   EXPECT_EQ(detector_.searched[1].box.width, 399);
+}
+
+TEST_F(StereoFaceFinderTest, APairThatMissesTheFaceLeavesItForNoOtherOne) {
+  detector_.left = {face(200, 100, 80)};
+  detector_.right = {face(150, 100, 80)};
+  ASSERT_TRUE(find());
+  const DetectedFace aside_left = face(20, 100, 90), aside_right = face(1, 100, 90);
+  for (const bool sees_other : {true, false}) {
+    detector_.left.clear();
+    if (sees_other) detector_.left = {aside_left};
+    detector_.right = {aside_right, face(150, 100, 80)};
+    EXPECT_EQ(find().error().text, sees_other ? "the face is not in the left image, another one is"
+                                              : "no face in the left image");
+    detector_.left = {aside_left, face(205, 100, 80)};
+    const auto found = find();
+    ASSERT_TRUE(found) << found.error().text;
+    EXPECT_EQ(found->left.box.left, 205);
+    EXPECT_EQ(found->right.box.left, 150);
+  }
 }
 
 TEST_F(StereoFaceFinderTest, TakesTheLargestFaceAndKeepsToItWhateverTheScores) {

@@ -115,7 +115,10 @@ TEST_F(LandmarksHostTest, LooksWhereTheFaceWasUntilItIsLost) {
   EXPECT_EQ(see(image(1, 200), image(1, 200)).left_box_()[2], 1);
   EXPECT_EQ(see(image(2, 200), image(2, 200)).left_box_()[2], 2);
   EXPECT_FALSE(see(image(3, 0), image(3, 0)).valid_());
-  EXPECT_EQ(see(image(4, 200), image(4, 200)).left_box_()[2], 1);
+  EXPECT_EQ(see(image(4, 200), image(4, 200)).left_box_()[2], 3);
+  EXPECT_FALSE(see(image(5, 0), image(5, 0)).valid_());
+  EXPECT_FALSE(see(image(6, 0), image(6, 0)).valid_());
+  EXPECT_EQ(see(image(7, 200), image(7, 200)).left_box_()[2], 1);
 }
 
 TEST_F(LandmarksHostTest,

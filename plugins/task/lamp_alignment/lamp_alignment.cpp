@@ -221,6 +221,8 @@ bool LampAlignment::may_go_along() const {
 /// A new target in every step, so that the arm never waits for the next picture.
 void LampAlignment::go_along(Time now) {
   phase_ = Phase::following;
+  if (goals_.stopped()) return come_to_rest(now);
+  if (goes_along_ && !goals_.may_move()) return;  // the newest goal is answered soon
   if (goals_.state() == GoalState::failed) return align_with(latest(), phase_, now);
   const Time last = latest().stamp + seconds(parameters_.max_prediction);
   const bool is_far = kAlong.left_by(latest().at(now), *goal_estimate_);

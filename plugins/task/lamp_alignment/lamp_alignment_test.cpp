@@ -132,6 +132,25 @@ TEST_F(LampAlignmentTest, AFaceThatIsElsewhereAtOnceIsNotGoneAlongWithBeforeTheL
   }
 }
 
+TEST_F(LampAlignmentTest, AStopWhileItGoesAlongIsFollowedByNothingThoughItIsToldLate) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  velocity_ = {0, 0.05, 0};
+  for (int k = 0; k < 25; ++k) {
+    mouth_ += 0.02 * velocity_;
+    tick();
+  }
+  ASSERT_EQ(goals_.back().mode, MotionMode::tracking);
+  late_by_ = 2;  // ticks
+  stop();
+  run(2);
+  EXPECT_EQ(task_.phase(), Phase::unreachable);
+  EXPECT_EQ(task_.trouble(), "stop: stopped until it is rearmed");
+  rearm();
+  const std::size_t goals = goals_.size();
+  run(5);
+  EXPECT_EQ(goals_.size(), goals);
+}
+
 TEST_F(LampAlignmentTest, GoesAlongAlsoWhenItHasBegunToGoToWhereHeWas) {
   ASSERT_TRUE(run_until(Phase::holding, 15));
   mouth_.y() += 0.015;  // as an estimate tells it that takes him to be still

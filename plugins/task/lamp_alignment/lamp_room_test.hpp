@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
 #include <random>
 #include <utility>
 #include <vector>
@@ -37,6 +38,8 @@ class LampAlignmentTest : public testing::Test {
   void tick() {
     now_ = now_ + seconds(0.02);
     ++ticks_;
+    for (; !late_.empty() && late_.front().first <= ticks_; late_.pop_front())
+      task_.hear(late_.front().second, now_);
     if (goal_ && now_ >= arrival_) {
       lamp_ = goal_->pose;
       task_.hear({.goal_id = goal_->id, .state = GoalReport::State::done}, now_);
@@ -75,11 +78,12 @@ class LampAlignmentTest : public testing::Test {
   }
 
   void drop(const MotionGoal& goal) {
-    task_.hear({.goal_id = goal.id,
-                .state = GoalReport::State::failed,
-                .stage = "stop",
-                .reason = "stopped until it is rearmed"},
-               now_);
+    const GoalReport dropped{.goal_id = goal.id,
+                             .state = GoalReport::State::failed,
+                             .stage = "stop",
+                             .reason = "stopped until it is rearmed"};
+    if (late_by_ == 0) return task_.hear(dropped, now_);
+    late_.push_back({ticks_ + late_by_, dropped});
   }
   void stop() {
     stopped_ = true;
@@ -124,7 +128,8 @@ class LampAlignmentTest : public testing::Test {
 
   LampAlignment task_{Parameters{.auto_confirm = true}, 0.08};
   Time now_;
-  int ticks_ = 0;
+  int ticks_ = 0, late_by_ = 0;  // late_by_: a stop is told
+  std::deque<std::pair<int, GoalReport>> late_;
   std::optional<MotionGoal> goal_;
   Time arrival_;
   ToolPose lamp_{.position = {0.6, 0, 0.5}, .orientation = Direction{Eigen::Vector3d::UnitY()}};

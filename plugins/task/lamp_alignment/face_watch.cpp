@@ -23,6 +23,7 @@ void FaceWatch::see(const Picture& picture, Time now) {
   face_ = picture.face;
   if (picture.face) face_at_ = picture.stamp;
   if (is_longer_than_lost(picture_at_, picture.stamp)) begins_at_ = picture.stamp;
+  period_ = picture.stamp - picture_at_;
   picture_at_ = picture.stamp;
   picture_came_ = now;
 }
@@ -34,7 +35,9 @@ void FaceWatch::see(const Verdict& verdict) {
     return;
   }
   unusable_ = {.since = unusable_ ? unusable_->since : verdict.stamp, .why = verdict.refusal};
-  begins_at_ = verdict.stamp;
+  const bool is_blind = is_longer_than_lost(unusable_->since, verdict.stamp);
+  begins_at_ =
+      is_blind ? verdict.stamp : std::min(std::max(begins_at_, face_at_) + period_, verdict.stamp);
 }
 
 bool FaceWatch::see(const FaceEstimate& estimate) {
@@ -79,7 +82,10 @@ bool FaceWatch::lost(Time since) const {
 }
 
 std::string FaceWatch::disbelief(Time since) const {
-  if (!is_longer_than_lost(known_since(since), picture_at_)) return {};
+  if (!is_longer_than_lost(known_since(since), picture_at_) ||
+      is_longer_than_lost(face_at_, picture_at_)) {
+    return {};
+  }
   const std::string& why = refusal_.empty() ? no_estimate_ : refusal_;
   return "a face is seen but not believed: " + (why.empty() ? "nobody tells where it is" : why);
 }

@@ -61,7 +61,8 @@ class FaceWatch {
   /// be used, it is not lost.
   bool lost(Time since) const;
   /// Why a face that is in the pictures has not been believed for `lost_s` after `since`; or "".
-  /// The reason is that of the newest picture with a face, or of the newest one that has any.
+  /// The reason is that of the newest picture with a face, or of the newest one that has any. A
+  /// face that no picture has shown for `lost_s` is not in them.
   std::string disbelief(Time since) const;
   /// Why the newest picture with a face gave no estimate, or "".
   const std::string& refusal() const { return refusal_; }
@@ -82,8 +83,9 @@ class FaceWatch {
   bool is_found_anew_ = false;
   int moving_ = 0, still_ = 0;  // estimates in a row that say so
   Time picture_at_, picture_came_;
+  Duration period_{};  // between the newest two pictures
   Time face_at_;       // the newest picture with a face, believed or not
-  Time begins_at_;     // the first picture after a time without any, or the newest unusable one
+  Time begins_at_;     // the wait for one; pictures that cannot be used put it off
   bool face_ = false;  // in the newest picture
   struct Unusable {
     Time since;  // all pictures

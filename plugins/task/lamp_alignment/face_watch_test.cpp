@@ -96,6 +96,38 @@ TEST_F(FaceWatchTest, TheFirstPictureThatCanBeUsedAgainBeginsTheWaitAnew) {
   EXPECT_TRUE(watch_.lost(begin_));
 }
 
+TEST_F(FaceWatchTest, AFaceIsLostThoughAPictureNowAndThenCannotBeUsed) {
+  see(5, true);
+  measure(3);
+  for (int k = 0; k < 120; ++k) {
+    see(0.4, false);
+    watch_.see(Verdict{.stamp = now_, .refusal = "no face in the left image"});
+    see_unusable(0.1, "the left camera gives its last picture again");
+  }
+  EXPECT_TRUE(watch_.lost(begin_));
+  EXPECT_EQ(watch_.disbelief(begin_), "") << "no face is seen";
+}
+
+TEST_F(FaceWatchTest, PicturesThatCannotBeUsedCountForNoTimeInWhichAFaceIsMissed) {
+  see(5, true);
+  for (int k = 0; k < 18; ++k) {
+    see(0.1, false);
+    watch_.see(Verdict{.stamp = now_, .refusal = "no face in the left image"});
+    see_unusable(0.1, "the left camera gives its last picture again");
+  }
+  EXPECT_FALSE(watch_.lost(begin_)) << "1.8 s of 3.6 s could be used";
+  see_unusable(1, "the left camera gives its last picture again");
+  EXPECT_FALSE(watch_.lost(begin_));
+}
+
+TEST_F(FaceWatchTest, BehindAnOutageNoFaceIsSeenBeforeAPictureShowsOne) {
+  see(5, true);
+  measure(3);
+  wait(60);
+  see(0.1, false);
+  EXPECT_EQ(watch_.disbelief(begin_), "");
+}
+
 TEST_F(FaceWatchTest, AFaceThatComesAndGoesIsNotBelievedForTheReasonOfThePictureBefore) {
   see(1, true);
   measure(3);

@@ -87,6 +87,12 @@ void LampAlignment::see(const Picture& picture, Time now) {
   }
 }
 
+void LampAlignment::see(const Verdict& verdict) {
+  face_.see(verdict);
+  if (!verdict.can_be_used && verdict.stamp >= looking_since_)
+    pictures_ = std::max(pictures_ - 1, 0);
+}
+
 void LampAlignment::see(const FaceEstimate& estimate) {
   const bool follows_others = face_.is_fresh(estimate.stamp);
   if (!face_.see(estimate)) return;
@@ -248,7 +254,7 @@ bool LampAlignment::lost() const {
 void LampAlignment::come_to_rest(Time now) {
   if (goals_.state() == GoalState::failed) {
     phase_ = Phase::unreachable;
-    trouble_ = failure("a patient who moves");
+    trouble_ = refusal_ = failure("a patient who moves");
     refused_ = 1;
     return;
   }
@@ -311,19 +317,17 @@ void LampAlignment::wait_for_another_face_position(Time now) {
     search_for_lost_face(now);
     return;
   }
-  if (goals_.state() == GoalState::failed) {
-    const std::string doubt = face_.disbelief(goal_set_at_);
-    trouble_ = doubt.empty() ? failure("a patient who moves") : doubt;
-  }
+  if (goals_.state() == GoalState::failed) refusal_ = failure("a patient who moves");
+  const std::string doubt = face_.disbelief(goal_set_at_);
+  trouble_ = doubt.empty() ? refusal_ : doubt;
   const double wait_s = std::min(std::ldexp(parameters_.replan_interval, refused_ - 1),
                                  parameters_.max_retry_interval);
   if (to_seconds(now - goal_set_at_) < wait_s) return;
   if (!is_fresh(now) || recent_.count() < few_) return;
   if (goals_.stopped() ? has_moved() : settled_.left_by(latest(), *goal_estimate_)) {
-    const std::string why = trouble_;
     align_with(recent(), Phase::unreachable, now);
     refused_ = std::min(refused_ + 1, kMostRefusals);
-    trouble_ = why;  // until a goal is accepted
+    trouble_ = refusal_;  // until a goal is accepted
   }
 }
 

@@ -38,7 +38,7 @@ class LampAlignment {
 
   void see(const Picture& picture, Time now);
   void see(const FaceEstimate& estimate);
-  void see(const Verdict& verdict) { face_.see(verdict); }
+  void see(const Verdict& verdict);
   /// Why a picture gave no estimate.
   void see_no_estimate(const std::string& why) { face_.see_no_estimate(why); }
   void hear(const GoalReport& report, Time now) { goals_.hear(report, now); }
@@ -136,6 +136,7 @@ class LampAlignment {
   bool face_in_picture_ = false;  // in one of them
   std::optional<double> new_level_;
   std::string blindness_, trouble_, light_trouble_;
+  std::string refusal_;  // of the last goal to a face that failed
 };
 
 /// "checking light", "searching", ...

@@ -65,6 +65,15 @@ TEST_F(LampAlignmentTest, InASearchItStaysInItsViewWhileNoPictureCanBeUsed) {
   EXPECT_EQ(task_.trouble(), "");
 }
 
+TEST_F(LampAlignmentTest, InASearchItLeavesAViewThoughEveryOtherPictureCannotBeUsed) {
+  ASSERT_TRUE(run_until(Phase::searching, 1));
+  for (int k = 0; k < 1000 && task_.phase() == Phase::searching; ++k) {
+    unusable_ = k / 5 % 2 == 0 ? "the left camera gives its last picture again" : "";
+    tick();
+  }
+  EXPECT_EQ(task_.phase(), Phase::aligning);
+}
+
 class LampThatWasPausedTest : public LampAlignmentTest {
  protected:
   std::string say(const std::string& word) {
@@ -216,6 +225,23 @@ TEST_F(LampWithALateMotionTest, WhoIsReadyWhenTheFaceIsNotBelievedIsSentToNoFace
   believed_ = true;
   EXPECT_TRUE(run_until(Phase::holding, 15));
   EXPECT_EQ(task_.trouble(), "");
+}
+
+TEST_F(LampWithALateMotionTest, WhoIsSilentBehindARefusalHearsNoRefusalOfAFaceThatIsNotBelieved) {
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  reach_m_ = 0.1;
+  mouth_.y() += 0.05;
+  ASSERT_TRUE(run_until(Phase::unreachable, 10));
+  answers_ = false;
+  mouth_.y() += 0.05;
+  run(1);
+  EXPECT_EQ(task_.trouble(), "ik: out_of_reach") << "the last answer";
+  believed_ = false;
+  run(3);
+  EXPECT_EQ(task_.trouble(), "a face is seen but not believed: nobody tells where it is");
+  believed_ = true;
+  run(1);
+  EXPECT_EQ(task_.trouble(), "ik: out_of_reach");
 }
 
 TEST_F(LampAlignmentTest, OutOfReachOfAFaceItTriesNoOtherPositionThatIsOld) {

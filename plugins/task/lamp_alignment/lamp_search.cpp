@@ -70,10 +70,7 @@ void LampAlignment::search(Time now) {
     }
     return;
   }
-  if (face_.is_unusable()) {
-    pictures_ = 0;
-    return;
-  }
+  if (face_.is_unusable()) return;
   const int enough = parameters_.frames_per_view + (face_in_picture_ ? kPicturesForEstimate : 0);
   if (pictures_ < enough) return;
   trouble_ = reason_to_leave();

@@ -47,6 +47,12 @@ bool FaceWatch::see(const FaceEstimate& estimate) {
                                 estimate.measurements, parameters_.min_measurements));
     return false;
   }
+  const Eigen::Vector3d& at = estimate.mouth;
+  if (!is_where_patients_are(at)) {
+    see_no_estimate(fmt::format("a face at ({:.1f}, {:.1f}, {:.1f}) m is not where patients are",
+                                at.x(), at.y(), at.z()));
+    return false;
+  }
   const bool moves = estimate.velocity.norm() > parameters_.moving_speed ||
                      estimate.normal_rate.norm() > parameters_.moving_turn;
   moving_ = moves ? moving_ + 1 : 0;
@@ -57,6 +63,14 @@ bool FaceWatch::see(const FaceEstimate& estimate) {
   latest_->normal_rate = shortened(estimate.normal_rate, parameters_.max_turn);
   no_estimate_.clear();
   refusal_.clear();
+  return true;
+}
+
+bool FaceWatch::is_where_patients_are(const Eigen::Vector3d& mouth) const {
+  for (std::size_t i = 0; i < parameters_.min_patient.size(); ++i) {
+    const double at = mouth[static_cast<Eigen::Index>(i)];
+    if (at < parameters_.min_patient[i] || at > parameters_.max_patient[i]) return false;
+  }
   return true;
 }
 

@@ -32,8 +32,9 @@ class FaceWatch {
 
   /// `now`: when the picture came.
   void see(const Picture& picture, Time now);
-  /// True where it is a new measurement of a face that is confirmed. What is predicted over
-  /// pictures without a measurement is none: `latest()` at a later time predicts better.
+  /// True where it is a new measurement of a face that is confirmed, and where patients are. What
+  /// is predicted over pictures without a measurement is none: `latest()` at a later time predicts
+  /// better.
   bool see(const FaceEstimate& estimate);
   void see(const Verdict& verdict);
   /// Why a picture gave no estimate.
@@ -71,6 +72,7 @@ class FaceWatch {
   const std::string& no_estimate() const { return no_estimate_; }
 
  private:
+  bool is_where_patients_are(const Eigen::Vector3d& mouth) const;
   bool is_longer_than_lost(Time since, Time now) const {
     return to_seconds(now - since) > parameters_.lost;
   }

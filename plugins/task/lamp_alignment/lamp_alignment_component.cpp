@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/core.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -30,14 +31,19 @@ Parameters parameters_of(const Params& params) {
     params.refuse({"search_yaw_deg", "search_pitch_deg"},
                   "'search_yaw_deg' and 'search_pitch_deg' need at least one angle each");
   }
-  for (std::size_t i = 0; i < parameters.min_mouth.size(); ++i) {
-    if (parameters.min_mouth[i] > parameters.max_mouth[i]) {
-      params.refuse({"min_mouth_m", "max_mouth_m"},
-                    fmt::format("'min_mouth_m' is above 'max_mouth_m' in {}: {:g} m and {:g} m",
-                                std::string_view{"xyz"}.substr(i, 1), parameters.min_mouth[i],
-                                parameters.max_mouth[i]));
+  using Corner = std::array<double, 3>;
+  const auto refuse_above = [&](const char* low_name, const Corner& low, const char* high_name,
+                                const Corner& high) {
+    for (std::size_t i = 0; i < low.size(); ++i) {
+      if (low[i] <= high[i]) continue;
+      params.refuse({low_name, high_name},
+                    fmt::format("'{}' is above '{}' in {}: {:g} m and {:g} m", low_name, high_name,
+                                std::string_view{"xyz"}.substr(i, 1), low[i], high[i]));
     }
-  }
+  };
+  refuse_above("min_mouth_m", parameters.min_mouth, "max_mouth_m", parameters.max_mouth);
+  refuse_above("min_patient_m", parameters.min_patient, "min_mouth_m", parameters.min_mouth);
+  refuse_above("max_mouth_m", parameters.max_mouth, "max_patient_m", parameters.max_patient);
   return parameters;
 }
 

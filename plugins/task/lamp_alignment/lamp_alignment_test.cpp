@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
 #include <numbers>
 
 #include "lamp_room_test.hpp"
@@ -368,6 +370,25 @@ TEST_F(LampAlignmentTest, TellsOfAViewThatItLeavesThatAFaceWasSeenThereAndWhyItW
             "in view 2 a face was seen but not believed: the pictures are not rectified");
   while (task_.view() < 4) tick();
   EXPECT_EQ(task_.trouble(), "") << "none was seen there";
+}
+
+TEST_F(LampAlignmentTest, GoesToNoFaceThatIsNotWherePatientsAreAndSearchesOn) {
+  task_ = LampAlignment{
+      Parameters{
+          .min_patient = {0.9, -0.6, -0.1}, .max_patient = {1.9, 0.6, 1.1}, .auto_confirm = true},
+      0.08};
+  for (const Eigen::Vector3d& poster : {Eigen::Vector3d{1.62, 1.22, 0.42}, {2.32, 0.02, 0.42}}) {
+    mouth_ = poster;
+    run(15);
+    EXPECT_EQ(task_.phase(), Phase::searching);
+    while (task_.view() != 3) tick();
+    EXPECT_EQ(task_.trouble(),
+              fmt::format("in view 2 a face was seen but not believed: a face at ({:.1f}, {:.1f}, "
+                          "0.4) m is not where patients are",
+                          poster.x(), poster.y()));
+  }
+  mouth_ = {1.6, 0.5, 0.4};
+  EXPECT_TRUE(run_until(Phase::holding, 30));
 }
 
 TEST_F(LampAlignmentTest, TellsAtTheEndOfARoundWhyNoViewGaveAFaceEachReasonOnce) {

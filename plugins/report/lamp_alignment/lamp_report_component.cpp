@@ -121,11 +121,8 @@ class LampReport : public Component {
     const auto tell = [&](const char* key, const char* title, FaceFeature feature) {
       std::vector<double> pixels;
       for (const FaceLandmarks* face : {&seen_->left, &seen_->right}) {
-        const auto around = landmarks_around(feature, face->scheme);
-        Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-        for (const std::size_t i : around) sum += face->points[i].point;
-        pixels.push_back(sum.x() / static_cast<double>(around.size()));
-        pixels.push_back(sum.y() / static_cast<double>(around.size()));
+        const Eigen::Vector2d at = face->feature(feature).point;
+        pixels.insert(pixels.end(), {at.x(), at.y()});
       }
       summary.series(key, title, std::move(pixels));
     };

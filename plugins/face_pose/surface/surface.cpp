@@ -89,7 +89,8 @@ Expected<std::vector<DisparitySurface>> Surface::starts_of(const Features& left,
   std::vector starts{plane_of(left, right)};
   if (!starts.front().c.allFinite() || !(starts.front().c[0] > 0)) {
     return refuse(FaceRefusal::implausible,
-                  fmt::format("the face has a disparity of {:.2f} px, not a positive one",
+                  fmt::format("the face has a disparity of {:.2f} px, not a positive one: are the "
+                              "left and the right camera exchanged?",
                               starts.front().c[0]));
   }
   if (const Memory* last = state.get<Memory>()) {

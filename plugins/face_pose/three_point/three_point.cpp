@@ -55,7 +55,8 @@ Expected<StereoPoint> ThreePoint::triangulate(FaceFeature feature,
   const double disparity = left.point.x() - right.point.x();
   if (disparity <= 0) {
     return refuse(FaceRefusal::implausible,
-                  fmt::format("the {} has a disparity of {:.2f} px, not a positive one",
+                  fmt::format("the {} has a disparity of {:.2f} px, not a positive one: are the "
+                              "left and the right camera exchanged?",
                               name_of(feature), disparity));
   }
   const Eigen::Vector3d point = camera.triangulate(left.point, right.point);

@@ -177,7 +177,9 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Guard{"disparity", [](FacePoseInput& in) { shift_mouth(in, 230, 0); },
               FaceRefusal::implausible,
-              "the mouth has a disparity of -10.64 px, not a positive one"},
+              "the mouth has a disparity of -10.64 px, not a positive one: are the left and the "
+              "right "
+              "camera exchanged?"},
         Guard{"near", [](FacePoseInput& in) { shift_mouth(in, -500, 0); }, FaceRefusal::implausible,
               "the mouth would be 0.152 m away, outside 0.2 to 2 m"},
         Guard{"rows", [](FacePoseInput& in) { shift_mouth(in, 0, 8); }, FaceRefusal::not_rectified,

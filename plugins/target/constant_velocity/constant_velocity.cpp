@@ -268,7 +268,8 @@ Expected<ConstantVelocity::Belief> ConstantVelocity::updated(const TargetMeasure
                                                              Belief& belief) const {
   const double dt = to_seconds(told.stamp - belief.stamp);
   if (dt <= 0) {
-    return refuse(fmt::format("the measurement is {:.1f} ms older than the newest one", -dt * 1e3));
+    return refuse(
+        fmt::format("the measurement is {:.1f} ms older than the newest one", std::abs(dt) * 1e3));
   }
 
   const TargetMeasurement measurement = belief.scatter.explained(told);

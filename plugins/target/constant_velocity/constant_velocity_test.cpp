@@ -452,6 +452,8 @@ TEST(ConstantVelocity, SaysWhatIsWrongWithAMeasurement) {
             "the measurement is not finite, its normal is no unit vector, or a covariance is none");
   EXPECT_EQ(filter.update(camera.look(0.9, kMouth, kNormal), state).error().text,
             "the measurement is 100.0 ms older than the newest one");
+  EXPECT_EQ(filter.update(camera.look(1, kMouth, kNormal), state).error().text,
+            "the measurement is 0.0 ms older than the newest one");
 }
 
 }  // namespace

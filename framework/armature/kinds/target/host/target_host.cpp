@@ -13,6 +13,7 @@
 #include "armature/values/guarded.hpp"
 #include "host_target_parameters.hpp"
 #include "host_target_ports.hpp"
+#include "view_agreement.hpp"
 
 namespace armature::host::target {
 namespace {
@@ -24,7 +25,8 @@ std::size_t samples_of(const Parameters& parameters) {
 
 }  // namespace
 
-/// Face poses of a moving camera in, the filtered target in the base frame out.
+/// Face poses of a moving camera in, the filtered target in the base frame out. Cameras that have a
+/// face elsewhere from near than from afar are told in the state.
 class TargetHost final : public Component {
  public:
   explicit TargetHost(Setup& setup);
@@ -44,6 +46,7 @@ class TargetHost final : public Component {
   FrameBuffer history_;
   Slot<TargetFilter> filter_;
   PluginState state_;
+  ViewAgreement views_;
   std::string arm_trouble_, history_trouble_;
   Ports ports_;
 };
@@ -55,6 +58,7 @@ TargetHost::TargetHost(Setup& setup)
       mount_{mount_of(rig_, robot_)},
       history_{robot_, samples_of(Parameters::read(setup.params()))},
       filter_{setup.slot<TargetFilter>("target")},
+      views_{rig_.camera.baseline_m},
       ports_{setup} {}
 
 void TargetHost::step(Time) {
@@ -74,7 +78,8 @@ void TargetHost::remember(const msg::JointState& arm) {
 }
 
 void TargetHost::tell_trouble() {
-  const std::string& trouble = arm_trouble_.empty() ? history_trouble_ : arm_trouble_;
+  const std::string& arm_or_history = arm_trouble_.empty() ? history_trouble_ : arm_trouble_;
+  const std::string& trouble = arm_or_history.empty() ? views_.warning() : arm_or_history;
   if (trouble.empty()) return healthy();
   degraded(trouble);
 }
@@ -100,11 +105,13 @@ Expected<TargetMeasurement> TargetHost::measurement(const msg::FacePose& face) {
     const auto turned = [&](const std::array<double, 9>& covariance) -> Eigen::Matrix3d {
       return turn * to_eigen(covariance) * turn.transpose();
     };
-    return TargetMeasurement{.stamp = stamp,
-                             .position = base_T_camera * to_eigen(face.mouth_()),
-                             .normal = turn * to_eigen(face.normal_()),
-                             .position_covariance = turned(face.mouth_covariance_()),
-                             .normal_covariance = turned(face.normal_covariance_())};
+    const TargetMeasurement seen{.stamp = stamp,
+                                 .position = base_T_camera * to_eigen(face.mouth_()),
+                                 .normal = turn * to_eigen(face.normal_()),
+                                 .position_covariance = turned(face.mouth_covariance_()),
+                                 .normal_covariance = turned(face.normal_covariance_())};
+    views_.add(base_T_camera, seen);
+    return seen;
   });
 }
 

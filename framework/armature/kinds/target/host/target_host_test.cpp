@@ -2,10 +2,14 @@
 // The host of the target filters: 1. a face pose goes through where the arm was when the picture
 // was taken, 2. one answer for each face, stamped as its picture, 3. the filter predicts over a
 // gap, then what is missing is told, 4. a bad joint state, or a history that does not reach to the
-// pictures, is told as the component's own trouble.
+// pictures, is told as the component's own trouble, 5. and so are cameras that have a face
+// elsewhere from near than from afar.
 #include <gtest/gtest.h>
 
 #include <array>
+#include <functional>
+#include <numbers>
+#include <random>
 #include <stdexcept>
 
 #include "armature/kinds/target/target_messages.hpp"
@@ -259,6 +263,59 @@ TEST_F(TargetHostTest, IsDegradedWhileItsHistoryDoesNotReachToThePictures) {
   EXPECT_EQ(host.status().state, StatusReporter::State::degraded)
       << "the arm's part was never the trouble";
   EXPECT_EQ(see_at(2.35).state, StatusReporter::State::ok);
+}
+
+class ApproachingTargetHostTest : public TargetHostTest {
+ protected:
+  /// A mouth that stirs by `stirs_m` (1 sigma) is looked at from afar, then from near, so often;
+  /// `seen` is where the cameras have what is at x. In how many views the host was degraded.
+  int degraded_in(int approaches, double stirs_m, const std::function<Vector3d(Vector3d)>& seen) {
+    ComponentHarness host = bench();
+    std::mt19937 random{kSeed};
+    std::normal_distribution<double> stir{0, stirs_m};
+    const JointVector kNear = kHome + joint_vector({0.2787, -0.0662, 0, -0.2125, 0});
+    const Eigen::Isometry3d far = camera_at(kHome), near = camera_at(kNear);
+    int degraded = 0;
+    for (int view = 0; view < 2 * approaches; ++view) {
+      const Vector3d mouth =
+          far * Vector3d{0.06, 0.02, 0.67} + Vector3d{stir(random), stir(random), stir(random)};
+      const bool is_near = view % 2 == 1;
+      const Vector3d at = seen((is_near ? near : far).inverse() * mouth);
+      for (int look = 0; look < 3; ++look) {
+        const double now = 1 + 3.0 * view + 0.1 * look;
+        host.send("measured_js", arm_at(now, is_near ? kNear : kHome));
+        msg::FacePose looked = face(now);
+        assign(looked.mouth_(), at);
+        host.send("face", looked);
+        host.step(now);
+      }
+      degraded += host.status().state == StatusReporter::State::degraded;
+      told_ = host.status().reason;
+    }
+    return degraded;
+  }
+  std::string told_;  // in the end
+  static constexpr unsigned kSeed = 7;
+  static constexpr double kDegree = std::numbers::pi / 180;
+};
+
+TEST_F(ApproachingTargetHostTest, CamerasThatAreTurnedSidewaysAreToldOfAfterAFewApproaches) {
+  const double baseline_m = load_stereo_rig(kRig).camera.baseline_m;
+  EXPECT_GT(degraded_in(6, 0.001,
+                        [&](Vector3d x) -> Vector3d {
+                          return x * (1 + 0.3 * kDegree * x.z() / baseline_m);
+                        }),
+            0)
+      << "seed " << kSeed;
+  EXPECT_NE(told_.find("elsewhere from near than from afar"), std::string::npos) << told_;
+  EXPECT_NE(told_.find("degrees of yaw between the cameras"), std::string::npos) << told_;
+}
+
+TEST_F(ApproachingTargetHostTest, OfCamerasThatAreRightNothingIsToldHoweverPeopleStir) {
+  for (const double stirs_m : {1e-4, 0.003, 0.01}) {
+    EXPECT_EQ(degraded_in(200, stirs_m, [](Vector3d x) { return x; }), 0)
+        << "seed " << kSeed << ", " << stirs_m << " m";
+  }
 }
 
 TEST_F(TargetHostTest, DoesNotStartWithARigThatHangsOnNoFrameOfTheRobot) {

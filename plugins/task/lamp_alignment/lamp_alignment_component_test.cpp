@@ -276,6 +276,11 @@ TEST(LampAlignmentComponent, DoesNotStartWithoutAnAngleToSearchAt) {
             "bench:1:85: 'search_yaw_deg' and 'search_pitch_deg' need at least one angle each");
 }
 
+TEST(LampAlignmentComponent, RefusesAPromiseOutOfTheBoxWherePatientsAre) {
+  EXPECT_EQ(refusal_of(built_plugins(), task_with("max_patient_m: [2, 0.2, 1]")),
+            "bench:1:82: 'max_mouth_m' is above 'max_patient_m' in y: 0.3 m and 0.2 m");
+}
+
 TEST(LampAlignmentComponent, RefusesHysteresesThatAreNone) {
   EXPECT_EQ(refusal_of(built_plugins(), task_with("replan_position_mm: 1")),
             "bench:1:87: 'settled_position_mm' is 1, not below 'replan_position_mm', which is 1: "

@@ -6,12 +6,15 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "armature/config/problems.hpp"
 #include "armature/runtime/plugins/setup_error.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "armature/values/json_text.hpp"
@@ -130,10 +133,25 @@ std::vector<Eigen::Vector2d> corners_of(const chessboard::BoardShape& shape, dou
   return corners;
 }
 
+/// Throws where one file would be written over another.
+void refuse_equal_names(const Json& options) {
+  std::set<std::filesystem::path> files;
+  for (const char* of : {"output", "rig", "coverage"}) {
+    const std::string name = options[of];
+    if (name.empty() ||
+        files.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(name))).second) {
+      continue;
+    }
+    throw SetupError(fmt::format("two of -o, --rig and --coverage name '{}'", name));
+  }
+}
+
 int calibrate(const Json& options) {
+  refuse_equal_names(options);
   const chessboard::BoardShape shape{.columns = options["board"][0], .rows = options["board"][1]};
   const double square_m = 1e-3 * options["square_mm"].get<double>();
   const std::string output = options["output"], rig = options["rig"], cover = options["coverage"];
+  const std::string mount = mount_text(rig);
   const BoardPictures pictures = read_board_pictures(options["left"].get<std::string>(),
                                                      options["right"].get<std::string>(), shape);
   const auto fit = stereo::fit_stereo(
@@ -166,7 +184,9 @@ int calibrate(const Json& options) {
     table += fmt::format("  {:<24}{}\n", name, json_text(value));
   }
   write_atomically(output, opencv_text(fit->calibration, comment), FileUse::named_by_user);
-  if (!rig.empty()) write_atomically(rig, rig_text(made->camera, output), FileUse::named_by_user);
+  if (!rig.empty()) {
+    write_atomically(rig, rig_text(made->camera, output, mount), FileUse::named_by_user);
+  }
   if (!cover.empty()) {
     write_atomically(cover, coverage_svg(pictures.views, pictures.width, pictures.height),
                      FileUse::named_by_user);
@@ -179,6 +199,9 @@ int run(const char* options) {
   try {
     return calibrate(Json::parse(options));
   } catch (const SetupError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return kInvalid;
+  } catch (const config::ConfigError& error) {
     fmt::print(stderr, "{}\n", error.what());
     return kInvalid;
   } catch (const std::exception& error) {

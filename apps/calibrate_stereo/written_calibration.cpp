@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 #include <utility>
+
+#include "armature/config/document.hpp"
 
 namespace armature {
 namespace {
@@ -38,19 +41,31 @@ std::string opencv_text(const stereo::StereoCalibration& calibration, const std:
          matrix("T", calibration.right_T_left->translation());
 }
 
-std::string rig_text(const StereoCamera& camera, const std::string& calibration_file) {
+std::string mount_text(const std::string& rig_file) {
+  if (std::filesystem::is_regular_file(rig_file)) {
+    const config::Node rig = config::load(rig_file);
+    if (const config::Node* mount = rig.find("mount")) {
+      return config::to_yaml(config::Node::map({{"mount", {}, *mount}}, {}), false);
+    }
+  }
+  return "# Where they hang is not in the pictures: say it, as of cameras in the middle of a "
+         "tool.\n"
+         "# mount: {frame: tool, center_mm: [0, 0, 0], forward: [1, 0, 0], right: [0, 0, 1]}\n";
+}
+
+std::string rig_text(const StereoCamera& camera, const std::string& calibration_file,
+                     const std::string& mount) {
   return fmt::format(
-      "# The cameras of {}, rectified. Where they hang is not in the pictures: say it under "
-      "mount.\n"
+      "# The cameras of {}, rectified.\n"
       "armature_rig: 1\n"
       "name: calibrated\n"
       "resolution: [{}, {}]\n"
       "focal_px: {:.6f}\n"
       "principal_point_px: [{:.6f}, {:.6f}]\n"
       "baseline_mm: {:.6f}\n"
-      "mount: {{frame: tool, center_mm: [0, 0, 0], forward: [1, 0, 0], right: [0, 0, 1]}}\n",
+      "{}",
       calibration_file, camera.width, camera.height, camera.focal_px, camera.cx, camera.cy,
-      1e3 * camera.baseline_m);
+      1e3 * camera.baseline_m, mount);
 }
 
 std::string coverage_svg(const std::vector<stereo::BoardView>& views, int width, int height) {

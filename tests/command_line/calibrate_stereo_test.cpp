@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
@@ -21,7 +22,7 @@ namespace armature::test {
 namespace {
 
 namespace fs = std::filesystem;
-using Eigen::Vector3d, testing::ContainsRegex;
+using Eigen::Vector3d, testing::ContainsRegex, testing::HasSubstr;
 
 constexpr int kAcross = 640, kDown = 480;
 constexpr double kSquare = 0.025;
@@ -109,12 +110,33 @@ TEST(CalibrateStereo, FindsTheCamerasWithinWhatItSaysOfItselfAndWritesWhatADeplo
   EXPECT_EQ(calibration.width, kAcross);
   EXPECT_TRUE(content_of(cover).starts_with("<svg "));
 
-  const CommandResult checked =
-      run_command({armature(), "check", source_file("configs/dental_lamp_cameras.yaml"), "--set",
-                   "rigs.head=" + boards.path("rig.yaml").string(), "--set",
-                   "components.pair.params.calibration=" + boards.path("head.yaml").string()});
+  const auto check = [&] {
+    return run_command({armature(), "check", source_file("configs/dental_lamp_cameras.yaml"),
+                        "--set", "rigs.head=" + rig, "--set",
+                        "components.pair.params.calibration=" + boards.path("head.yaml").string()});
+  };
+  const CommandResult unmounted = check();
+  EXPECT_EQ(unmounted.exit_code, 3) << unmounted.out;
+  EXPECT_THAT(unmounted.err, ContainsRegex("rig.yaml:.*mount"));
+
+  const std::string mount =
+      "mount:\n  frame: tool\n  center_mm: [0, -80, 0]\n  forward: [1, 0, 0]\n  right: [0, 0, 1]\n";
+  std::ofstream{rig, std::ios::app} << mount;
+  ASSERT_EQ(calibrate(boards, {"--board", "9", "6", "--rig", rig}).exit_code, 0);
+  EXPECT_THAT(content_of(rig), HasSubstr(mount)) << "where the cameras hang was not measured anew";
+  const CommandResult checked = check();
   EXPECT_EQ(checked.exit_code, 0) << checked.err;
   EXPECT_NE(checked.out.find("pair: 640 x 480 pixels"), std::string::npos) << checked.out;
+}
+
+TEST(CalibrateStereo, WritesNoFileOverAnotherOneOfItsOwn) {
+  const DrawnBoards boards{0};
+  for (const char* option : {"--rig", "--coverage"}) {
+    const CommandResult result =
+        calibrate(boards, {"--board", "9", "6", option, boards.path("left/../head.yaml")});
+    EXPECT_EQ(result.exit_code, 3);
+    EXPECT_THAT(result.err, HasSubstr("two of -o, --rig and --coverage name '"));
+  }
 }
 
 TEST(CalibrateStereo, NamesPicturesWithoutTheBoardAndRefusesTooFew) {

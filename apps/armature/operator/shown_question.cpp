@@ -7,16 +7,14 @@ namespace armature {
 
 void ShownQuestion::show(const std::string& step, Moment now) {
   if (step == step_) return;
-  if (!step_.empty()) {
-    before_ = step_;
-    before_until_ = now;
-  }
+  if (!step_.empty()) before_ = step_;
   step_ = step;
+  since_ = now;
 }
 
 Expected<std::string> ShownQuestion::confirmed(Moment now) const {
-  const bool has_taken_its_place = !before_.empty() && before_ != step_;
-  if (has_taken_its_place && !step_.empty() && now - before_until_ < kReading) {
+  const bool is_another = !before_.empty() && before_ != step_;
+  if (is_another && !step_.empty() && now - since_ < kReading) {
     return refuse(
         fmt::format("the question has just changed from '{}' to '{}', and nothing is "
                     "confirmed: say it again",

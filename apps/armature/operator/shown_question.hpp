@@ -12,18 +12,19 @@ namespace armature {
 class ShownQuestion {
  public:
   using Moment = std::chrono::steady_clock::time_point;
-  /// A question that is younger has not been read: what is typed answers the one before.
+  /// A question that is younger has not been read: what is typed answers the one before, which may
+  /// have been gone for long.
   static constexpr std::chrono::milliseconds kReading{500};
 
   /// `step`: the step that is shown to wait for its confirmation; empty: none.
   void show(const std::string& step, Moment now);
-  /// The step that a confirmation means; empty: none was asked about. Refused while the question
-  /// has just taken the place of another one.
+  /// The step that a confirmation means; empty: none was asked about. Refused where the question
+  /// has just come up, unless it is the first one or the same step asks again.
   Expected<std::string> confirmed(Moment now) const;
 
  private:
   std::string step_, before_;  // before_: the last step that was asked about, other than step_
-  Moment before_until_{};
+  Moment since_{};             // step_ is shown
 };
 
 }  // namespace armature

@@ -8,7 +8,11 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
+#include <string_view>
+#include <thread>
 
+#include "armature/messages/rcl_interfaces.hpp"
+#include "asker.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -46,6 +50,25 @@ class Watched : public testing::Test {
     all.insert(all.end(), arguments.begin(), arguments.end());
     all.insert(all.end(), {"--domain", std::to_string(domain_)});
     return all;
+  }
+  /// Beside a program that writes lines of a log again and again, and calls them `type`.
+  CommandResult beside(std::string_view type, const std::vector<std::string>& command) const {
+    MessageType called = message_type<msg::Log>();
+    called.dds_name = type;
+    const auto transport = std::move(*FastDdsTransport::make(
+        {.network = {.domain = domain_}, .deployment = "stranger", .now = system_now}));
+    SamplePool lines{called, 4};
+    const auto writer = std::move(*transport->advertise({"rt/chatter", &called, QosProfile::log}));
+    const std::jthread thread{[&](const std::stop_token& ended) {
+      while (!ended.stop_requested()) {
+        SampleRef sample = lines.loan();
+        static_cast<msg::Log*>(sample.mutable_message())->level_(255);
+        sample.mutable_info().published = system_now();
+        writer->offer(sample);
+        std::this_thread::sleep_for(std::chrono::milliseconds{100});
+      }
+    }};
+    return run_command(command, {}, std::chrono::seconds{40});
   }
   int domain_ = unique_dds_domain();
 };
@@ -164,6 +187,24 @@ TEST_F(Watched, WhatDidNotComeInTimeIsSaid) {
   const auto result = once.finish(kTimeout);
   EXPECT_EQ(result.exit_code, 5);
   EXPECT_EQ(result.err, "armature: 1 of 2 samples of '/tf_static' came within 3 s\n");
+}
+
+TEST_F(Watched, ASampleOfAnUnknownTypeIsJsonToo) {
+  const auto result = beside("chat::msg::dds_::Word_",
+                             topic({"echo", "/chatter", "-n", "1", "--json", "--timeout", "20"}));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  const json unread = lines_of(result).at(0);
+  EXPECT_EQ(unread["type"], "chat::msg::dds_::Word_");
+  EXPECT_GT(unread["bytes"], 4);
+}
+
+TEST_F(Watched, ASampleThatIsNotOfItsTypeDoesNotCount) {
+  const auto result = beside("sensor_msgs::msg::dds_::JointState_",
+                             topic({"echo", "/chatter", "-n", "1", "--timeout", "6"}));
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_NE(result.err.find("armature: not a sensor_msgs/JointState: "), std::string::npos)
+      << result.err;
+  EXPECT_EQ(result.out, "");
 }
 
 TEST(TopicHz, RefusesANumberOfSamplesThatHasNoRate) {

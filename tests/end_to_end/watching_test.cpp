@@ -106,6 +106,19 @@ TEST_F(Watching, WhoIsNotThereIsNamedWhenTheTimeIsOver) {
   EXPECT_THAT(top.err, HasSubstr("no deployment tells how it is in domain "));
 }
 
+TEST_F(Watching, TopEndsWhenTheTimeIsOver) {
+  const Command run = start("tests/end_to_end/arm_watched.yaml", {"--set", "clock=system"});
+  const std::vector<std::string> top{"top", "--interval", "0.2", "--timeout", "8"};
+  CommandResult result = run_command(line(top), {}, kLongEnough);
+  EXPECT_EQ(result.exit_code, 0) << result.err << run.err();
+  EXPECT_THAT(result.out, HasSubstr("watched: "));
+  std::vector<std::string> counted = line(top);
+  counted.insert(counted.end(), {"-n", "1000"});
+  result = run_command(counted, {}, kLongEnough);
+  EXPECT_EQ(result.exit_code, 5);
+  EXPECT_THAT(result.err, HasSubstr(" of 1000 tables within 8 s"));
+}
+
 /// The lamp with its cameras: what moves on a picture's stamp is measured by it.
 TEST_F(Watching, ALampTellsWhatItConsistsOfAndHowItIs) {
   const std::string file = "configs/dental_lamp.yaml";

@@ -208,10 +208,20 @@ int meet(SeenDeployments& seen, const TopOptions& options, ToldNotes& notes) {
 }
 
 int print_tables(SeenDeployments& seen, const TopOptions& options) {
+  const Time start = monotonic_now();
   ToldNotes notes;
   if (const int code = meet(seen, options, notes); code != kOk) return code;
   for (std::uint64_t i = 0; options.count == 0 || i < options.count; ++i) {
-    if (!wait_for(i == 0 ? Duration{0} : seconds(options.interval_s))) break;
+    const Duration interval = seconds(i == 0 ? 0 : options.interval_s);
+    const Duration rest = seconds(options.timeout_s) - (monotonic_now() - start);
+    const bool is_over = i > 0 && options.timeout_s > 0 && rest < interval;
+    if (!wait_for(is_over ? rest : interval)) break;
+    if (is_over && options.count == 0) break;
+    if (is_over) {
+      fmt::print(stderr, "armature: {} of {} tables within {:g} s\n", i, options.count,
+                 options.timeout_s);
+      return kTimedOut;
+    }
     seen.look();
     notes.tell_new(seen);
     if (options.json) {

@@ -136,18 +136,19 @@ int echo_topic(const TopicOptions& options) {
     if (count.full()) return;
     const TypeDescription* type = describe_type(sample.type);
     if (!type) {
-      tell(
-          fmt::format("{} bytes of {}; the folder of the library that has the type belongs into "
-                      "ARMATURE_PLUGIN_PATH",
-                      sample.cdr.size(), sample.type));
+      constexpr const char* kNote =
+          "the folder of the library that has the type belongs into ARMATURE_PLUGIN_PATH";
+      const Json unread{{"type", sample.type}, {"bytes", sample.cdr.size()}, {"note", kNote}};
+      tell(options.json ? json_text(unread)
+                        : fmt::format("{} bytes of {}; {}", sample.cdr.size(), sample.type, kNote));
     } else {
       const auto json = cdr_to_json(*type, sample.cdr,
                                     options.full ? OctetArrays::whole : OctetArrays::shortened);
       if (!json) {
         fmt::print(stderr, "armature: not a {}: {}\n", type->ros_name, json.error().text);
-      } else {
-        tell(options.json ? json_text(*json) : terminal_lines(readable(*json), 0) + "\n---");
+        return;
       }
+      tell(options.json ? json_text(*json) : terminal_lines(readable(*json), 0) + "\n---");
     }
     count.add();
   });

@@ -11,6 +11,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "armature/bus/network_interface.hpp"
+
 namespace armature {
 namespace {
 
@@ -75,7 +77,20 @@ WebServer::Options monitor_server(const MonitorAddress& address) {
   return server;
 }
 
+/// Of 0.0.0.0 those of every interface; what this machine alone reaches comes last.
 std::string monitor_links(const MonitorAddress& address, int port) {
+  if (address.address == "0.0.0.0") {
+    std::string links;
+    MonitorAddress one = address;
+    for (const NetworkInterface& interface : network_interfaces()) {
+      if (!interface.up) continue;
+      for (const std::string& own : interface.addresses) {
+        one.address = own;
+        links = monitor_links(one, port) + (links.empty() ? "" : '\n' + links);
+      }
+    }
+    if (!links.empty()) return links;
+  }
   const std::string query =
       address.token.empty() ? "" : "/?token=" + percent_encoded(address.token);
   const std::string place = fmt::format("{}:{}{}", address.address, port, query);

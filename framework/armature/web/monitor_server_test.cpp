@@ -36,5 +36,12 @@ TEST(MonitorLinks, LeadToTheServerWhateverCharactersTheTokenHas) {
   }
 }
 
+TEST(MonitorLinks, OfAllAddressesAreEveryOneAndThatOfThisMachineLast) {
+  const std::string links = monitor_links({.address = "0.0.0.0", .token = "t"}, 9000);
+  EXPECT_EQ(links.find("0.0.0.0:"), std::string::npos) << links;
+  EXPECT_TRUE(links.ends_with("http://127.0.0.1:9000/?token=t\nws://127.0.0.1:9000/?token=t"))
+      << links;
+}
+
 }  // namespace
 }  // namespace armature

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A drill passes what stops, fails what does not, and is not begun where metal would move.
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -9,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "armature/runtime/processes/instance_lock.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -168,6 +170,17 @@ TEST(Drill, IsRefusedWhereADeploymentRuns) {
                             ", and a drill would stop its arms; name another domain with "
                             "--domain, or none\n");
   EXPECT_THAT(run.err(), testing::Not(HasSubstr("stopping")));
+}
+
+TEST(Drill, IsRefusedWhereAnotherDrillIsHeld) {
+  const std::vector<std::string> drilled = drill("configs/sr1_biopsy.yaml", {"--short"});
+  const auto other = InstanceLock::take("drill domain " + drilled[4]);
+  ASSERT_TRUE(other);
+  const CommandResult result = run_command(drilled, {}, kWithin);
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.err, "armature: another drill (pid " + std::to_string(getpid()) +
+                            ") has domain " + drilled[4] +
+                            "; name another domain with --domain, or none\n");
 }
 
 TEST(Drill, IsRefusedWhereThereIsNoArm) {

@@ -120,6 +120,16 @@ TEST_F(EnsurePackages, ThatIsTheSecondWaitsForTheFirstAndInstallsNothingAgain) {
   EXPECT_TRUE(fs::exists(there));
 }
 
+TEST_F(EnsurePackages, LeavesASystemAloneThatHasOtherPackages) {
+  stand_in("dirname", "exec /usr/bin/dirname \"$@\"");
+  stand_in("readlink", "exec /usr/bin/readlink \"$@\"");
+  fs::remove(root_ / "stand_ins/dpkg-query");
+  const auto result = run_command({"/bin/bash", root_ / "tools/ensure-packages"},
+                                  {.environment = {{"PATH", root_ / "stand_ins"}}, .input = {}});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("armature: there is no dpkg here: "));
+}
+
 TEST_F(EnsurePackages, OfEveryPackageSaysWhatItIsFor) {
   std::ifstream list{root_ / "tools/apt-packages.txt"};
   for (std::string line; std::getline(list, line);) {
@@ -137,6 +147,14 @@ TEST_F(Build, SaysNothingWhenNothingHasChanged) {
   const auto result = run({"build", "release", "deployable"});
   EXPECT_EQ(result.exit_code, 0);
   EXPECT_EQ(result.out + result.err, "");
+}
+
+TEST_F(Build, OfATreeThatCannotBeWrittenNamesWhatIsBuilt) {
+  fs::create_directories(root_ / "build/release.lock");
+  const auto result = run({"build", "release"});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("build/ is not yours to write; what is built there runs as "
+                                    "build/release/bin/armature\n"));
 }
 
 TEST_F(Build, TellsALogEveryTenthPartAndNotEveryStep) {

@@ -35,12 +35,15 @@ struct Planned {
   double moment_s;
 };
 
-/// A DDS domain that no other drill and no deployment of this machine uses; in the option's domain
-/// it is not asked for.
+/// A DDS domain that no other drill and no deployment of this machine uses.
 struct OwnDomain {
   int number;
-  std::optional<InstanceLock> lock;
+  InstanceLock lock;
 };
+
+Expected<InstanceLock> lock_of(int domain) {
+  return InstanceLock::take(fmt::format("drill domain {}", domain));
+}
 
 /// A drill stops every arm of its domain, and writes there as a stranger.
 void refuse_if_used(int domain) {
@@ -55,14 +58,18 @@ void refuse_if_used(int domain) {
 OwnDomain own_domain(const std::optional<int>& wanted) {
   if (wanted) {
     refuse_if_used(*wanted);
-    return {.number = *wanted, .lock = {}};
+    auto lock = lock_of(*wanted);
+    if (lock) return {.number = *wanted, .lock = std::move(*lock)};
+    throw std::runtime_error{
+        fmt::format("another drill ({}) has domain {}; name another domain with --domain, or none",
+                    lock.error().text, *wanted)};
   }
   constexpr int kDomains = 100;  // beyond them UDP ports lie where the kernel hands out its own
   std::random_device random;
   const int first = std::uniform_int_distribution{0, kDomains - 1}(random);
   for (int i = 0; i < kDomains; ++i) {
     const int domain = 1 + (first + i) % kDomains;
-    auto lock = InstanceLock::take(fmt::format("drill domain {}", domain));
+    auto lock = lock_of(domain);
     if (lock && running_processes(domain).empty()) {
       return {.number = domain, .lock = std::move(*lock)};
     }

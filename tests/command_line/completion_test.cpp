@@ -49,6 +49,7 @@ TEST(Completion, BashCompletesDeploymentsByNameAndByFile) {
 TEST(Completion, BashCompletesPluginIds) {
   EXPECT_THAT(after_tab("plugin info ik/nu"), ElementsAre("ik/numeric"));
   EXPECT_THAT(after_tab("bench ik --plugins ik/kdl,ik/nu"), ElementsAre("ik/kdl,ik/numeric"));
+  EXPECT_THAT(after_tab("plugin new ca"), ElementsAre("camera/"));
 }
 
 TEST(Completion, BashCompletesAssignmentsOfTheDeploymentThatWasNamed) {

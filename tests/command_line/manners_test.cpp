@@ -2,6 +2,7 @@
 // What people expect of any program of the command line.
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <filesystem>
 
 #include "armature/values/temporary_folder.hpp"
@@ -75,6 +76,22 @@ TEST(TheCommandLine, HelpThatCannotBePrintedWasNotGiven) {
   const auto lost = run_command({"/bin/sh", "-c", "\"$0\" run --help > /dev/full", armature()});
   EXPECT_EQ(lost.exit_code, 1);
   EXPECT_THAT(lost.err, HasSubstr("standard output cannot be written"));
+}
+
+TEST(TheCommandLine, RefusesAnOptionThatWouldDoNothing) {
+  const std::string file = source_file("README.md");
+  for (std::vector<std::string> words : std::vector<std::vector<std::string>>{
+           {"replay", file, "--check", "--domain", "3"},
+           {"replay", file, "--set", "seed=3", "--no-shared-memory"},
+           {"replay", file, "--allow-ulp"},
+           {"operator", "dental_lamp", "--step", "search"},
+           {"operator", "dental_lamp", "--say", "pause", "--step", "search"},
+           {"graph", "dental_lamp", "--timeout", "3"},
+           {"graph", "--live", "--set", "seed=3"}}) {
+    words.insert(words.begin(), armature());
+    const auto refused = run_command(words, {}, std::chrono::seconds{10});
+    EXPECT_EQ(refused.exit_code, 2) << words[1] << ' ' << words.back() << ": " << refused.err;
+  }
 }
 
 TEST(TheCommandLine, TakesNoValueForAFileAndSaysWhereItGoes) {

@@ -80,6 +80,10 @@ TEST(WorkspaceCommand, WhatCannotBeComputedIsSaid) {
   expect_said(workspace({"--incision", "0,0,1", "--min-depth", "300"}), 3,
               "--min-depth is 300 mm, not between 0 and the 280 mm of the shaft");
   expect_said(workspace({"--incision", "0,1"}), 2, "--incision");
+  expect_said(workspace({"--seed", "-1"}), 2, "--seed");
+  const CommandResult early = workspace({"--samples", "300", "--out", kScope + "/below_a_file"});
+  expect_said(early, 1, "/below_a_file'");
+  EXPECT_EQ(early.out, "") << "it is tried before what takes long";
   expect_said(workspace({"--incision", "3,0,1", "--samples", "20"}), 1,
               "the tip comes nowhere; is the incision within the arm's reach?");
 }

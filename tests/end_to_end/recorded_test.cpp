@@ -311,6 +311,16 @@ TEST(RecordedFile, IsNotStandardOutput) {
   EXPECT_THAT(result.err, HasSubstr("is written into a file only, not to standard output"));
 }
 
+TEST(RecordedFile, IsMadeOfOthersWithoutWhatIsOfADomain) {
+  for (const char* of : {"--repair", "--merge"}) {
+    for (const char* other : {"--json", "--uncompressed", "--no-shared-memory"}) {
+      const CommandResult result =
+          run_command({armature(), "record", "-o", "x.mcap", of, source_file("README.md"), other});
+      EXPECT_EQ(result.exit_code, 2) << of << other << result.err;
+    }
+  }
+}
+
 TEST(Info, OfAPipeSaysThatItIsNoFileAndDoesNotWaitForItsWriter) {
   const std::string pipe = testing::TempDir() + "info-pipe-" + std::to_string(getpid());
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);

@@ -9,6 +9,7 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "completion/assignment.hpp"
 #include "exit_code.hpp"
+#include "plugin_new/family.hpp"
 #include "standard_output.hpp"
 #include "verbs/shipped_configs.hpp"
 
@@ -87,11 +88,19 @@ Candidates plugin_ids(const std::string& typed) {
   return all;
 }
 
+/// Of a new plugin, whose name is free.
+Candidates plugin_families() {
+  Candidates all;
+  for (const std::string& family : family_names()) all.push_back({family + '/', ""});
+  return all;
+}
+
 /// The values of an option or of a positional word. None: files.
 Candidates values_of(const VerbOption& option, const Place& place, const std::string& typed) {
   const std::string& name = option.names.back();
   if (name == "--set") return assignments(place.source, typed);
   if (name == "files") return deployment_files(typed);
+  if (name == "id" && place.verb->name == "new") return plugin_families();
   for (const char* of_plugins : {"--plugin", "--plugins", "plugin", "id"}) {
     if (name == of_plugins) return plugin_ids(typed);
   }

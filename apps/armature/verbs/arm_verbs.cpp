@@ -60,7 +60,7 @@ void add_workspace(CLI::App& app, Action& action) {
   workspace->add_option("--params", options->solver.params, "its parameters, a YAML map");
   add_ranged(workspace, "--samples", options->samples, "places, or joint positions, that are tried",
              1, 10'000'000);
-  workspace->add_option("--seed", options->seed, "of what is tried")->capture_default_str();
+  add_seed(workspace, options->seed, "of what is tried");
   workspace->add_option("--out", options->out, "folder for workspace.csv and workspace.svg");
   workspace->add_flag("--json", options->json, "as JSON");
   workspace->callback([=, &action] { action = [=] { return run_workspace(*options); }; });

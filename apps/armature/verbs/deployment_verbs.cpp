@@ -171,7 +171,12 @@ void add_operator(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->check(not_positive);
   verb->add_flag("--json", options->json, "as JSON: a line for every change");
-  verb->callback([options, &action] { action = [options] { return be_operator(*options); }; });
+  verb->callback([options, &action] {
+    if (!options->step.empty() && options->say != "confirm") {
+      throw CLI::ValidationError("--step", "it belongs to --say confirm");
+    }
+    action = [options] { return be_operator(*options); };
+  });
 }
 
 void add_inspection(CLI::App& app, Action& action) {
@@ -214,6 +219,11 @@ void add_graph(CLI::App& app, Action& action) {
   verb->add_option("--timeout", options->watch.timeout_s,
                    "with --live: give up after this many seconds")
       ->check(not_positive);
+  live->excludes("--set");
+  for (const char* option : {"--domain", "--interface", "--peer", "--discovery-server",
+                             "--no-shared-memory", "--timeout"}) {
+    verb->get_option(option)->needs(live);
+  }
   CLI::Option* dot = verb->add_flag("--dot", options->dot, "for Graphviz");
   CLI::Option* mermaid = verb->add_flag("--mermaid", options->mermaid, "for Mermaid");
   CLI::Option* json = verb->add_flag("--json", options->watch.json, "as JSON");

@@ -27,16 +27,22 @@ void add_record(CLI::App& app, Action& action) {
       ->check(no_pattern);
   verb->add_flag("--force", options->force, "replace a file that is there");
   verb->add_flag("--uncompressed", *plain, "without zstd: more bytes, less processor");
-  verb->add_option("--repair", *cut,
-                   "write what can be read of this recording, which was cut off, instead")
-      ->check(CLI::ExistingFile)
-      ->excludes("topics");
-  verb->add_option("--merge", *parts,
-                   "join what the processes of a run have recorded of themselves, a file each, "
-                   "instead: --merge run.mcap run.vision.mcap")
-      ->check(CLI::ExistingFile)
-      ->excludes("topics", "--repair");
+  CLI::Option* repair =
+      verb->add_option("--repair", *cut,
+                       "write what can be read of this recording, which was cut off, instead")
+          ->check(CLI::ExistingFile);
+  CLI::Option* merge =
+      verb->add_option("--merge", *parts,
+                       "join what the processes of a run have recorded of themselves, a file each, "
+                       "instead: --merge run.mcap run.vision.mcap")
+          ->check(CLI::ExistingFile)
+          ->excludes(repair);
   add_watch(*verb, *options);
+  for (const char* other : {"topics", "--uncompressed", "--timeout", "--json", "--domain",
+                            "--interface", "--peer", "--discovery-server", "--no-shared-memory"}) {
+    repair->excludes(other);
+    merge->excludes(other);
+  }
   verb->get_option("--timeout")->description("end after this many seconds");
   verb->callback([=, &action] {
     options->compress = !*plain;
@@ -108,7 +114,8 @@ void add_replay(CLI::App& app, Action& action) {
                             "--no-shared-memory", "--allow-ulp"}) {
     monitor->excludes(other);
   }
-  for (const char* other : {"--prefix", "--rate", "--from", "--loop", "--timeout"}) {
+  for (const char* other : {"--prefix", "--rate", "--from", "--loop", "--timeout", "--domain",
+                            "--interface", "--peer", "--discovery-server", "--no-shared-memory"}) {
     verb->get_option("--check")->excludes(other);
     verb->get_option("--set")->excludes(other);
   }
@@ -119,6 +126,9 @@ void add_replay(CLI::App& app, Action& action) {
     const bool is_publishing = !*check && options->assignments.empty();
     if (is_publishing && options->files.size() > 1) {
       throw CLI::ValidationError("recordings", "only one at a time is published or shown");
+    }
+    if (is_publishing && options->allow_ulp) {
+      throw CLI::ValidationError("--allow-ulp", "nothing is compared without --check or --set");
     }
     if (!publish->prefix.starts_with('/') || publish->prefix.size() < 2) {
       throw CLI::ValidationError("--prefix", "it begins with '/' and a name follows: /replay");

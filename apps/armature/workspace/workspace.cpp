@@ -14,6 +14,7 @@
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/kinematics/locked_joints.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
+#include "armature/runtime/reporting/output_folder.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
@@ -175,6 +176,7 @@ int run_workspace(const WorkspaceOptions& options) {
   refuse_open_slides(robot);
   std::optional<RemoteCentre> centre;
   if (!options.incision_m.empty()) centre = centre_of(robot, options);
+  if (!options.out.empty()) prepare_output_folder(options.out);
   const Workspace workspace = centre ? workspace_of(robot, *centre, options)
                                      : free_workspace(robot, options.samples, options.seed);
   const auto told = figures_of(workspace, centre, options);
@@ -190,7 +192,6 @@ int run_workspace(const WorkspaceOptions& options) {
   }
   if (options.out.empty()) return kOk;
   const std::filesystem::path folder{options.out};
-  std::filesystem::create_directories(folder);
   write_atomically(folder / "workspace.csv", csv_of(robot, workspace), FileUse::named_by_user);
   write_atomically(folder / "workspace.svg", svg_of(robot, workspace, centre),
                    FileUse::named_by_user);

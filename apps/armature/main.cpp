@@ -91,9 +91,6 @@ int run_command_line(int argc, char** argv) {
       print_out("{}", help.str());
       return kOk;
     });
-  } catch (const InvalidChoice& error) {
-    fmt::print(stderr, "{}\n", error.what());
-    return exit_code_of(error);
   }
   return exit_code_of(action);
 }

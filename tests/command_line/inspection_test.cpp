@@ -93,6 +93,14 @@ TEST(Check, FindsAnArmThatIsBoundToTheOtherRobot) {
       << result.err;
 }
 
+TEST(Check, TellsTheWarningsOfAFaultyFile) {
+  const auto result = run_command(
+      {armature(), "check", kLampDeployment, "--set", "components.scene.plugin=sim/nosuch"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_THAT(result.err, testing::ContainsRegex("warning: .*components.scene"));
+  EXPECT_THAT(result.err, testing::HasSubstr("unknown plugin 'sim/nosuch'"));
+}
+
 TEST(Check, AsksWhichOfTwoRigsOrNone) {
   const auto result =
       run_command({armature(), "check", kLampDeployment, "--set",
@@ -228,6 +236,13 @@ TEST(Show, PrintsAFileThatIsTheSameDeployment) {
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(leases_of(file, {}), leases_of(kBiopsyDeployment, {}));
   std::filesystem::remove(file);
+}
+
+TEST(Show, OfAFaultyFileSaysThatWhoWaitsForWhomIsNotTold) {
+  const auto shown = run_command({armature(), "show", kBiopsyDeployment, "--set", "nosuch=1"});
+  EXPECT_EQ(shown.exit_code, 0);
+  EXPECT_THAT(shown.out, testing::HasSubstr("\n# who waits for whom is not told: armature check "
+                                            "names what is wrong, 1 in all\n"));
 }
 
 TEST(Show, NamesFilesSuchThatTheDeploymentCanBeRunFromAnyFolder) {

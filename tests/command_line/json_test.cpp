@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
 
 #include "armature/values/temporary_folder.hpp"
@@ -63,6 +64,22 @@ TEST(CheckAsJson, OfAnAssignmentNamesItAndNoLine) {
   EXPECT_EQ(problem["text"], "unknown plugin 'ik/numerc'");
   EXPECT_THAT(problem["hint"].get<std::string>(),
               testing::StartsWith("did you mean 'ik/numeric'?"));
+}
+
+TEST(CheckAsJson, OfANameThatIsNoFileSaysSo) {
+  const json problem = told({"check", "dental_lmp"}, 3)["problems"][0];
+  EXPECT_EQ(
+      problem["text"],
+      "there is no file 'dental_lmp' here, and no deployment 'dental_lmp' came with armature");
+  EXPECT_THAT(problem["hint"].get<std::string>(),
+              testing::StartsWith("did you mean 'dental_lamp'"));
+}
+
+TEST(CheckAsJson, LooksForAHintBehindWhatIsQuoted) {
+  const std::string id = "ik/it's; known: a; did you mean b";
+  const json problem = told(
+      {"check", kLampFile, "--set", "components.motion.ik.plugin=\"" + id + '"'}, 3)["problems"][0];
+  EXPECT_EQ(problem["text"], "unknown plugin '" + id + "'");
 }
 
 TEST(CheckAsJson, HasTheWarningsThatPeopleRead) {
@@ -135,6 +152,16 @@ TEST(PluginListAsJson, HasTheManifestOfEveryPlugin) {
   json info = told({"plugin", "info", "ik/numeric"}, 0);
   info.erase("alone");
   EXPECT_EQ(*numeric, info) << "the same manifest as `plugin info` prints";
+}
+
+TEST(PluginInfoAsJson, GivesEveryDefaultItsType) {
+  std::map<std::string, json> defaults;
+  const json tracker = told({"plugin", "info", "sim/optical_tracker"}, 0);
+  for (const json& param : tracker["params"]) {
+    defaults[param["name"]] = param.value("default", json{});
+  }
+  EXPECT_EQ(defaults["jaw_hidden_s"], json::array());
+  EXPECT_EQ(defaults["rate_hz"], 60) << "a number, not a text";
 }
 
 }  // namespace

@@ -46,6 +46,17 @@ TEST_F(RunForAScript, AFaultyDeploymentIsOneObjectToo) {
   EXPECT_EQ(told["reason"].get<std::string>() + "\n", result.err);
 }
 
+TEST_F(RunForAScript, ANameThatIsNoFileIsOneObjectToo) {
+  const auto result = run_command({armature(), "run", "nosuch", "--json"});
+  EXPECT_EQ(result.exit_code, 3);
+  EXPECT_EQ(nlohmann::json::parse(result.out)["status"], "invalid_config");
+}
+
+TEST_F(RunForAScript, CountsTheComponentsThatItsFileHas) {
+  EXPECT_THAT(run({"--report", folder_.path()}).err,
+              testing::HasSubstr("starting sr1_biopsy: 7 components\n"));
+}
+
 TEST_F(RunForAScript, OfARunThatIsRefusedTheReportIsWhatIsPrinted) {
   leave_report();
   const auto unknown =

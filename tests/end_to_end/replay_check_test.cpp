@@ -219,9 +219,13 @@ TEST_F(Replay, AChangedConstantIsFoundAndNamesItsComponentOnly) {
 }
 
 TEST_F(Replay, TwoSolversAreComparedOnRecordedDataAndTheirCallsCanBeRepeated) {
-  record({"--set", "clock=simulated"});
+  const std::filesystem::path robots = folder_ / "the lamp's robots";
+  std::filesystem::copy(source_file("configs/robots"), robots);
+  record({"--set", "clock=simulated", "--set",
+          "robots.arm=" + (robots / "dental_lamp.yaml").string()});
   const CommandResult result = run_command(
-      {armature(), "replay", file(), "--set", "components.motion.ik.plugin=ik/numeric", "--json"},
+      {armature(), "replay", file(), "--set",
+       "components.motion.ik={plugin: ik/numeric, params: {max_restarts: 7}}", "--json"},
       {}, kEnough);
   ASSERT_EQ(result.exit_code, 0) << result.err;
   const json compared = json::parse(result.out)[0];
@@ -243,6 +247,7 @@ TEST_F(Replay, TwoSolversAreComparedOnRecordedDataAndTheirCallsCanBeRepeated) {
   line.replace(line.find("armature ik"), 8, armature());
   const CommandResult again = run_command({"/bin/sh", "-c", line});
   EXPECT_EQ(json::parse(again.out)["status"], "ok") << line << again.err;
+  EXPECT_THAT(line, HasSubstr("--params '{max_restarts: 7}'"));
 }
 
 TEST_F(Replay, AssignmentsThatChangeNothingAreRefused) {

@@ -8,6 +8,7 @@
 
 #include "armature/bus/fast_dds/receive_buffer.hpp"
 #include "armature/bus/fast_dds/shared_memory.hpp"
+#include "shell_word.hpp"
 
 namespace armature::doctor {
 namespace {
@@ -206,7 +207,7 @@ void judge_plugins(const PluginFacts& plugins, Findings& findings) {
     findings.push_back(
         {Level::problem, "plugin library", fmt::format("{}: {}", file.string(), reason),
          "a deployment that names it does not start",
-         fmt::format("ldd -r {}  # then build it again, or remove it", file.string())});
+         fmt::format("ldd -r {}  # then build it again, or remove it", shell_word(file.string()))});
   }
 }
 

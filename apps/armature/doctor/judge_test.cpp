@@ -152,9 +152,10 @@ TEST(Doctor, JoinsNoInterfaceThatIsDownOrHasNoAddress) {
 
 TEST(Doctor, NamesEveryLibraryThatDoesNotLoadWithItsReason) {
   Facts facts = good();
-  facts.plugins.unusable = {{"/a.so", "no manifest"}, {"/b.so", "built for another"}};
+  facts.plugins.unusable = {{"/my a.so", "no manifest"}, {"/b.so", "built for another"}};
   EXPECT_THAT(not_ok(facts), testing::ElementsAre("plugin library", "plugin library"));
-  EXPECT_EQ(about("plugin library", facts).value, "/a.so: no manifest");
+  EXPECT_EQ(about("plugin library", facts).value, "/my a.so: no manifest");
+  EXPECT_THAT(about("plugin library", facts).hint, HasSubstr("ldd -r '/my a.so'  #"));
   EXPECT_EQ(about("plugin library", facts).level, Level::problem);
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -66,11 +67,6 @@ void leave_out_programs(DeploymentConfig& deployment, Findings& findings) {
   });
 }
 
-/// A component that is several units counts once, as it does in the file.
-std::ptrdiff_t count_components(const DeploymentConfig& deployment) {
-  return std::ranges::count(deployment.components, kMainUnit, &ComponentConfig::unit);
-}
-
 std::size_t count_topics(const DeploymentConfig& deployment) {
   std::set<std::string_view> topics;
   for (const auto& component : deployment.components) {
@@ -106,11 +102,30 @@ void construct(DeploymentConfig config, PluginRegistry& plugins, Findings& findi
   }
 }
 
+/// Where the known names that are near begin in a message, outside of what it quotes; npos: there
+/// are none.
+std::size_t hint_in(std::string_view message) {
+  const auto is_letter = [&](std::size_t i) {
+    return i < message.size() && std::isalnum(static_cast<unsigned char>(message[i])) != 0;
+  };
+  bool is_quoted = false;
+  for (std::size_t i = 0; i < message.size(); ++i) {
+    const std::string_view rest = message.substr(i);
+    if (message[i] == '\'' && !is_letter(is_quoted ? i + 1 : i - 1)) {
+      is_quoted = !is_quoted;
+    } else if (!is_quoted &&
+               (rest.starts_with("; did you mean ") || rest.starts_with("; known: "))) {
+      return i;
+    }
+  }
+  return std::string_view::npos;
+}
+
 /// Where it is, what it is, and apart the known names that are near.
 Json problem_json(const config::Problem& problem) {
   Json json = origin_json(problem.origin);
   const std::string& message = problem.message;
-  const std::size_t end = std::min(message.rfind("; did you mean "), message.rfind("; known: "));
+  const std::size_t end = hint_in(message);
   json["text"] = message.substr(0, end);
   if (end != std::string::npos) json["hint"] = message.substr(end + 2);
   return json;
@@ -121,7 +136,7 @@ Json problems_json(const std::exception& error) {
   if (const auto* wrong = dynamic_cast<const config::ConfigError*>(&error)) {
     for (const config::Problem& problem : wrong->problems()) list.push_back(problem_json(problem));
   } else {
-    list.push_back({{"text", error.what()}});
+    list.push_back(problem_json({.origin = {}, .message = error.what()}));
   }
   return list;
 }
@@ -179,14 +194,22 @@ int check_deployment(const DeploymentSource& source, bool json) {
   PluginRegistry plugins;
   tell_warnings(plugins);
   Findings findings;
-  DeploymentConfig config = read_for_check(source, plugins, findings);
-  for (const auto& [component, plugin] : findings.not_tried) {
-    print_out("not tried: component '{}', as {} runs a program\n", component, plugin);
+  const auto tell_found = [&] {
+    for (const std::string& warning : findings.warnings) {
+      fmt::print(stderr, "warning: {}\n", warning);
+    }
+  };
+  try {
+    DeploymentConfig config = read_for_check(source, plugins, findings);
+    for (const auto& [component, plugin] : findings.not_tried) {
+      print_out("not tried: component '{}', as {} runs a program\n", component, plugin);
+    }
+    construct(std::move(config), plugins, findings);
+  } catch (...) {
+    tell_found();
+    throw;
   }
-  construct(std::move(config), plugins, findings);
-  for (const std::string& warning : findings.warnings) {
-    fmt::print(stderr, "warning: {}\n", warning);
-  }
+  tell_found();
   print_out("{}: ok, {} components, {} topics\n", findings.deployment, findings.components,
             findings.topics);
   for (const auto& [component, text] : findings.notes) print_out("{}: {}\n", component, text);

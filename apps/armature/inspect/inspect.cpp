@@ -63,7 +63,7 @@ void print_tree(const config::Node& tree, bool json) {
 
 int show_deployment(const DeploymentSource& source, bool json) {
   const config::PipeTimeLimit one_for_all;
-  const config::Node root = config::load_with_overlays(source.files, source.assignments);
+  const config::Node root = load_named(source);
   config::Problems problems;
   check_is_deployment(root, problems);
   problems.throw_if_any();
@@ -73,6 +73,9 @@ int show_deployment(const DeploymentSource& source, bool json) {
   const DeploymentConfig deployment = read_deployment(root, plugins, problems);
   if (problems.empty()) {
     print_out("{}{}", on_fault_comment(deployment), leases_comment(deployment));
+  } else {
+    print_out("# who waits for whom is not told: armature check names what is wrong, {} in all\n",
+              problems.sorted().size());
   }
   return kOk;
 }

@@ -8,6 +8,7 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
+#include "schema/value_schema.hpp"
 #include "standard_output.hpp"
 
 namespace armature {
@@ -17,11 +18,7 @@ using Json = nlohmann::ordered_json;
 
 Json param_json(const ParamSpec& spec) {
   Json json{{"name", spec.name}, {"type", to_string(spec.type)}, {"doc", spec.doc}};
-  if (spec.fallback) {
-    Json list = Json::array();
-    for (const auto& item : spec.fallback->items()) list.push_back(item.text());
-    json["default"] = list.empty() ? Json(spec.fallback->text()) : list;
-  }
+  if (spec.fallback) json["default"] = schema_of(spec)["default"];
   if (spec.min) json["min"] = *spec.min;
   if (spec.max) json["max"] = *spec.max;
   if (!spec.choices.empty()) json["choices"] = spec.choices;

@@ -17,18 +17,12 @@
 #include "record/repaired.hpp"
 #include "shell_word.hpp"
 #include "standard_output.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// A name from a file, as a terminal may be shown it.
-std::string shown(std::string name) {
-  std::ranges::replace_if(
-      name, [](unsigned char c) { return c < ' ' || c == 0x7F; }, '?');
-  return name;
-}
 
 std::string text_of(const Json& json) { return json_text(json); }
 
@@ -151,6 +145,7 @@ Json json_of(const Contents& contents, const std::vector<std::string>& problems)
     Json told{{"topic", key.first}, {"type", key.second}, {"messages", topic.messages}};
     if (topic.doubled > 0) told["doubled"] = topic.doubled;
     if (topic.bytes) told["bytes"] = *topic.bytes;
+    if (topic.hz) told["hz"] = *topic.hz;
     json["topics"].push_back(std::move(told));
   }
   for (const auto& [name, bytes] : contents.attachments) {
@@ -165,13 +160,13 @@ Json json_of(const Contents& contents, const std::vector<std::string>& problems)
 
 void print(const Contents& contents) {
   print_out("{:.3f} s by {}, {} in {} chunks, {} unpacked\n", to_seconds(contents.length),
-            shown(contents.library), megabytes(contents.packed_bytes), contents.chunks,
+            terminal_text(contents.library), megabytes(contents.packed_bytes), contents.chunks,
             megabytes(contents.unpacked_bytes));
   std::size_t width = 0;
   for (const auto& [key, topic] : contents.topics) width = std::max(width, key.first.size());
   for (const auto& [key, topic] : contents.topics) {
-    print_out("  {:<{}}  {:<40} {:>9} messages", shown(key.first), width, shown(key.second),
-              topic.messages);
+    print_out("  {:<{}}  {:<40} {:>9} messages", terminal_text(key.first), width,
+              terminal_text(key.second), topic.messages);
     if (topic.hz) print_out(" {:>9.1f} Hz", *topic.hz);
     print_out("{}\n", topic.bytes ? fmt::format(" {:>14}", megabytes(*topic.bytes)) : "");
   }
@@ -180,17 +175,17 @@ void print(const Contents& contents) {
               doubled);
   }
   for (const auto& [name, bytes] : contents.attachments) {
-    print_out("  attached: {}, {} bytes\n", shown(name), bytes);
+    print_out("  attached: {}, {} bytes\n", terminal_text(name), bytes);
   }
   for (const McapMetadata& metadata : contents.metadata) {
-    print_out("  {}:", shown(metadata.name));
+    print_out("  {}:", terminal_text(metadata.name));
     for (const auto& [key, value] : metadata.values) {
-      print_out(" {}={}", shown(key), shown(value));
+      print_out(" {}={}", terminal_text(key), terminal_text(value));
     }
     print_out("\n");
   }
   for (const std::string& repair : repairs_told_by(contents.metadata)) {
-    print_out("  incomplete: {}\n", shown(repair));
+    print_out("  incomplete: {}\n", terminal_text(repair));
   }
   if (contents.links > 0) {
     print_out("  {} links, the last is {}: --verify holds the file to them\n", contents.links,
@@ -251,12 +246,12 @@ bool is_nothing(const Contents& contents) {
 
 void tell_unreadable(const std::filesystem::path& file, const std::vector<std::string>& problems) {
   fmt::print(stderr, "armature: '{}': nothing can be read of it: {}\n", file.string(),
-             problems.front());
+             terminal_text(problems.front()));
 }
 
 void tell_problems(const std::filesystem::path& file, const std::vector<std::string>& problems) {
   for (const std::string& problem : problems) {
-    fmt::print(stderr, "armature: '{}' is not whole: {}\n", file.string(), problem);
+    fmt::print(stderr, "armature: '{}' is not whole: {}\n", file.string(), terminal_text(problem));
   }
   fmt::print(stderr,
              "armature: what can be read of it is saved by: armature record --repair {} -o "

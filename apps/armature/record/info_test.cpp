@@ -93,7 +93,9 @@ TEST(Info, SaysThatAFileIsWholeAndHowOftenATopicCameOnlyWhenItHasReadAllOfIt) {
   std::string bytes = file.bytes();
   EXPECT_EQ(info_of(file.path(), true)["whole"], true);
   EXPECT_THAT(info_text({.file = file.path(), .verify = true}, kOk), HasSubstr("500.0 Hz"));
+  EXPECT_EQ(info_of(file.path(), true)["topics"][0]["hz"], 500);
   EXPECT_THAT(info_text({.file = file.path()}, kOk), Not(HasSubstr("Hz")));
+  EXPECT_FALSE(info_of(file.path(), false)["topics"][0].contains("hz"));
   bytes[places_of(mcap::Op::chunk, bytes).at(1) + 60] ^= 0x01;
   file.replace(bytes);
   EXPECT_EQ(info_of(file.path(), false)["whole"], nlohmann::json{}) << "nobody has looked";

@@ -20,6 +20,7 @@
 #include "replay/replay.hpp"
 #include "replay/replayed_process.hpp"
 #include "replay/watched_ik.hpp"
+#include "shell_word.hpp"
 #include "standard_output.hpp"
 
 namespace armature {
@@ -36,6 +37,20 @@ std::string text_of(const ComponentConfig& component, const DeploymentConfig& de
     text += config::to_yaml(deployment.documents.at(section).at(name), false);
   }
   return text;
+}
+
+/// A value of a parameter as one line of YAML.
+std::string flow_text(const config::Node& value) {
+  if (value.kind() != config::Node::Kind::sequence) {
+    std::string text = config::to_yaml(value, false);
+    text.pop_back();
+    return text;
+  }
+  std::string list;
+  for (const config::Node& item : value.items()) {
+    list += (list.empty() ? "" : ", ") + flow_text(item);
+  }
+  return '[' + list + ']';
 }
 
 /// The components of `run` that are other ones with the assignments.
@@ -102,7 +117,7 @@ struct Side {
     if (!entry) return text;
     for (const auto& [key, origin, value] : entry->entries()) {
       if (value.origin().file.starts_with("default of ")) continue;
-      text += fmt::format("{}{}: {}", text.empty() ? "{" : ", ", key, value.text());
+      text += fmt::format("{}{}: {}", text.empty() ? "{" : ", ", key, flow_text(value));
     }
     return text.empty() ? text : text + "}";
   }
@@ -224,9 +239,9 @@ class Comparison {
 };
 
 std::string line_for(const IkCalls::Call& call, const Side::Solver& solver) {
-  return fmt::format("echo '{}' | armature ik --robot {} --plugin {}{}", call.question,
-                     solver.robot, solver.plugin,
-                     solver.params.empty() ? "" : fmt::format(" --params '{}'", solver.params));
+  return fmt::format("echo {} | armature ik --robot {} --plugin {}{}", shell_word(call.question),
+                     shell_word(solver.robot), solver.plugin,
+                     solver.params.empty() ? "" : " --params " + shell_word(solver.params));
 }
 
 TimingFigures times_of(const Side& side, const std::string& component) {

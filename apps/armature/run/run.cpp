@@ -274,7 +274,7 @@ void check_name(const DeploymentConfig& config, const char* what, const std::str
 
 /// The first line of a run. It comes before the components are made, which may take seconds.
 std::string starting_text(const DeploymentConfig& config) {
-  const std::size_t count = config.components.size();
+  const std::ptrdiff_t count = count_components(config);
   return fmt::format("starting {}: {} component{}", config.name, count, count == 1 ? "" : "s");
 }
 
@@ -306,6 +306,7 @@ int run(RunOptions options) {
     return code;
   }
   const std::vector<InstanceLock> locks = own_arms(config, process.name, process.domain);
+  const std::string starting = starting_text(config);
   if (options.report) {
     add_joint_reports(config, plugins, *options.report);
     if (!config.record) record_for_page(config, options);
@@ -327,7 +328,7 @@ int run(RunOptions options) {
   WatchedEnd end{options, console, is_child ? &*child_watch : nullptr};
   const ExitGuard guard{[&](const std::string& what) { end.leave(what); }};
   name_crashing_components();
-  if (!is_child) console.line("runtime", starting_text(config));
+  if (!is_child) console.line("runtime", starting);
   Deployment deployment{
       std::move(config),
       plugins,

@@ -10,7 +10,6 @@
 #include "bench/plan/bench_plan.hpp"
 #include "bench/watched/bench_watched.hpp"
 #include "verbs/option_checks.hpp"
-#include "verbs/shipped_configs.hpp"
 #include "verbs/verbs.hpp"
 
 namespace armature {
@@ -112,9 +111,7 @@ void add_bench_perception(CLI::App* bench, Action& action) {
                          "the worst pairs as JPEG with truth and estimate, into this folder");
   perception->add_flag("--json", options->json, "as JSON");
   perception->callback([options, &action] {
-    if (options->source.files.empty()) {
-      options->source.files = {deployment_file("dental_lamp")};
-    }
+    if (options->source.files.empty()) options->source.files = {"dental_lamp"};
     action = [options] { return bench_perception(*options); };
   });
 }

@@ -2,21 +2,15 @@
 #include <CLI/CLI.hpp>
 
 #include "verbs/option_checks.hpp"
-#include "verbs/shipped_configs.hpp"
 #include "verbs/verbs.hpp"
 
 namespace armature {
 
 void add_source(CLI::App& verb, DeploymentSource& source) {
-  const auto to_file = [](std::string& given) {
-    given = deployment_file(given);
-    return std::string{};
-  };
   verb.add_option("files", source.files,
                   "deployment: a file, or a name that came with armature (dental_lamp); then "
                   "overlays that change it")
-      ->required()
-      ->transform(CLI::Validator{to_file, ""});
+      ->required();
   verb.add_option("--set", source.assignments,
                   "change one value: --set components.motion.ik.plugin=ik/numeric")
       ->allow_extra_args(false);

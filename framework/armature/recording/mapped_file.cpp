@@ -41,7 +41,7 @@ void tell_shortened_file(int signal, siginfo_t* info, void*) {
     if (!begin || at < begin || at >= place.end) continue;
     say("armature: '");
     say(place.name.data());
-    say("' was made shorter while it was read\n");
+    say("' was made shorter while it was read, or cannot be read any more\n");
     _exit(1);
   }
   std::signal(signal, SIG_DFL);  // the access is made again, and ends the program

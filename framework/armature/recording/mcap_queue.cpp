@@ -102,7 +102,7 @@ void McapQueue::write(std::uint16_t channel, std::uint32_t sequence, Time log_ti
 /// Of the room for what waits [byte]: what is no message takes none, and has always room.
 std::size_t McapQueue::bytes_of(const Item& item) {
   const auto* message = std::get_if<Message>(&item);
-  return message ? message->data.size() : 0;
+  return message ? sizeof(Item) + message->data.size() : 0;
 }
 
 void McapQueue::put(Item item) {
@@ -213,10 +213,10 @@ void McapQueue::write(const Item& item) {
 
 void McapQueue::keep(Message& message) {
   const Time oldest = message.log_time - around_->before_and_after;
-  kept_bytes_ += message.data.size();
+  kept_bytes_ += sizeof message + message.data.size();
   kept_.push_back(std::move(message));
   while (!kept_.empty() && (kept_.front().log_time < oldest || kept_bytes_ > kMaxWaiting)) {
-    kept_bytes_ -= kept_.front().data.size();
+    kept_bytes_ -= sizeof message + kept_.front().data.size();
     remember(preamble_, std::move(kept_.front()));
     kept_.pop_front();
   }

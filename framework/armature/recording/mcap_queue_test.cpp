@@ -216,6 +216,36 @@ class SlowReader {
   std::string last_;
 };
 
+/// Ends a queue into a pipe that is read meanwhile.
+void close_to(SlowReader& reader, McapQueue& queue) {
+  std::atomic<bool> closed{false};
+  std::thread closing{[&] {
+    queue.close();
+    closed = true;
+  }};
+  for (bool is_end = false; !is_end;) {
+    const bool was_closed = closed;
+    is_end = reader.read() == 0 && was_closed;
+  }
+  closing.join();
+}
+
+TEST_F(McapQueueTest, SmallMessagesTakeNoMoreMemoryThanLargeOnes) {
+  const fs::path pipe = folder_ / "pipe.mcap";
+  SlowReader reader{pipe};
+  McapQueue queue{pipe, {.compress = false}, McapQueue::WhenFull::drop};
+  const auto channel = queue.add_channel("/a", kType);
+  queue.write(channel, 1, {}, {}, std::vector<std::byte>(1U << 20));
+  while (reader.waiting() < 20'000) std::this_thread::yield();
+  constexpr std::size_t kOfEach = 100;  // [byte] at least, with what stands around it
+  std::size_t waiting = 0;
+  for (; waiting <= McapQueue::kMaxWaiting / kOfEach && queue.dropped().empty(); ++waiting) {
+    queue.write(channel, 1, {}, {}, std::vector<std::byte>(16));
+  }
+  EXPECT_LE(waiting, McapQueue::kMaxWaiting / kOfEach);
+  close_to(reader, queue);
+}
+
 TEST_F(McapQueueTest, WhatIsNoMessageIsWrittenHoweverMuchWaits) {
   constexpr std::size_t kMegabyte = 1U << 20;
   const fs::path pipe = folder_ / "pipe.mcap";
@@ -244,16 +274,7 @@ TEST_F(McapQueueTest, WhatIsNoMessageIsWrittenHoweverMuchWaits) {
   }
   queue.add({.name = "what became of it", .values = {{"lost", "many"}}});
   queue.attach({.name = "figures.json", .media_type = "application/json", .data = "{}"});
-  std::atomic<bool> closed{false};
-  std::thread closing{[&] {
-    queue.close();
-    closed = true;
-  }};
-  for (bool is_end = false; !is_end;) {
-    const bool was_closed = closed;
-    is_end = reader.read() == 0 && was_closed;
-  }
-  closing.join();
+  close_to(reader, queue);
   EXPECT_THAT(reader.last(), HasSubstr("what became of it"));
   EXPECT_THAT(reader.last(), HasSubstr("figures.json"));
 }

@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <optional>
 
+#include "armature/values/utf8.hpp"
+
 namespace armature::config {
 namespace {
 
@@ -28,6 +30,13 @@ bool is_variable_name(std::string_view name) {
          std::ranges::all_of(name, [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
 }
 
+/// Whether a file may say it, too.
+bool is_text(std::string_view value) {
+  return is_utf8(value) && std::ranges::none_of(value, [](unsigned char c) {
+           return (c < 0x20 && c != '\t' && c != '\n') || c == 0x7F;
+         });
+}
+
 /// The value of one `NAME` or `NAME:-default`; none when a problem was noted.
 std::optional<std::string> value_of(const std::string& inside, const Origin& origin,
                                     Problems& problems) {
@@ -41,6 +50,12 @@ std::optional<std::string> value_of(const std::string& inside, const Origin& ori
     return std::nullopt;
   }
   const char* value = std::getenv(name.c_str());
+  if (value && !is_text(value)) {
+    problems.add(origin, fmt::format("the environment variable '{}' is no UTF-8, or has a control "
+                                     "character",
+                                     name));
+    return std::nullopt;
+  }
   if (dash == std::string::npos) {
     if (value) return value;
     problems.add(origin, fmt::format("the environment variable '{0}' is not set; set it or write "

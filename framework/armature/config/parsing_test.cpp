@@ -172,6 +172,15 @@ TEST_F(Environment, KeepsPlacesBehindAVariable) {
   EXPECT_EQ(root.find("b")->origin().text(), "f.yaml:1:38");
 }
 
+TEST_F(Environment, RefusesAValueThatNoFileMaySay) {
+  for (const char* value : {"a\x1b[31m", "a\xff", "a\x7f"}) {
+    setenv("ARMATURE_TEST_SET", value, 1);
+    EXPECT_EQ(problems_of("a: ${ARMATURE_TEST_SET:-b}\n"),
+              "f.yaml:1:4: the environment variable 'ARMATURE_TEST_SET' is no UTF-8, or has a "
+              "control character");
+  }
+}
+
 TEST_F(Environment, LeavesBlockTextAndKeysAlone) {
   const Node root = parse_text("a: |\n  ${X}, [y]\n${k}: 1\n", "f.yaml");
   EXPECT_EQ(root.find("a")->text(), "${X}, [y]\n");

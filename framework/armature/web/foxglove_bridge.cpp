@@ -70,6 +70,12 @@ std::uint32_t id_of(const nlohmann::json& said) {
   throw std::invalid_argument("an id is a whole number from 0 to 4294967295, not " + what);
 }
 
+template <class Clients>
+bool is_read(const Clients& clients, std::uint32_t channel) {
+  return std::ranges::any_of(
+      clients, [&](const auto& entry) { return entry.second.subscriptions.contains(channel); });
+}
+
 }  // namespace
 
 FoxgloveBridge::FoxgloveBridge(TopicSource& topics, Options options)
@@ -224,10 +230,7 @@ void FoxgloveBridge::unsubscribe(Client client, std::uint32_t subscription) {
 }
 
 void FoxgloveBridge::leave_alone(std::uint32_t channel_id) {
-  const auto reads = [&](const auto& entry) {
-    return entry.second.subscriptions.contains(channel_id);
-  };
-  if (std::ranges::any_of(clients_, reads)) return;
+  if (is_read(clients_, channel_id)) return;
   Channel& channel = channels_.at(channel_id);
   if (!std::exchange(channel.is_watched, false)) return;
   topics_.unwatch(channel.topic.name);
@@ -248,7 +251,9 @@ void FoxgloveBridge::look() {
     const auto [place, is_new] = by_topic_.try_emplace(topic.name, last_channel_ + 1);
     there.insert(place->second);
     if (!is_new) {
-      channels_.at(place->second).topic.keeps = topic.keeps;
+      Channel& channel = channels_.at(place->second);
+      channel.topic.keeps = topic.keeps;
+      if (!channel.is_watched && is_read(clients_, channel.id)) watch(channel);
       continue;
     }
     Channel& channel = channels_[++last_channel_];

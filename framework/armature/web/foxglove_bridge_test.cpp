@@ -36,6 +36,7 @@ class OneTopic : public TopicSource {
   Schema schema_of(const Topic&) const override { return {"lamp/msg/Light", "float64 lux"}; }
   bool watch(const std::string&, OnMessage on_message) override {
     const std::scoped_lock lock{mutex_};
+    if (is_just_gone_.exchange(false)) return false;
     on_message_ = std::move(on_message);
     return true;
   }
@@ -47,6 +48,8 @@ class OneTopic : public TopicSource {
   void be_of_type(const char* type) { type_ = type; }
   void be_there(bool is_there) { is_there_ = is_there; }
   void be_there_twice() { is_there_twice_ = true; }
+  /// For who watches it next: it is there again when the topics are asked for.
+  void be_just_gone() { is_just_gone_ = true; }
   /// Returns when the topics have been asked for twice more.
   void wait_for_looks() const {
     const int last = looks_ + 2;
@@ -65,6 +68,7 @@ class OneTopic : public TopicSource {
   mutable std::atomic<int> looks_{0};
   std::atomic<bool> is_there_{true};
   std::atomic<bool> is_there_twice_{false};
+  std::atomic<bool> is_just_gone_{false};
   std::atomic<const char*> type_{"Light"};
   std::mutex mutex_;
   OnMessage on_message_;
@@ -271,6 +275,14 @@ TEST_F(FoxgloveBridgeTest, ForgetsAChannelThatIsGoneAndNumbersItAnewWhenItComesA
   }
   EXPECT_EQ(answer_to(json{{"op", "subscribe"}, {"subscriptions", {subscription(2)}}}.dump()),
             "there is no channel " + std::to_string(channel_));
+}
+
+TEST_F(FoxgloveBridgeTest, ReadsATopicThatWasAwayForAMomentWhenItWasAskedFor) {
+  topic_.be_just_gone();
+  socket_.send_text(json{{"op", "subscribe"}, {"subscriptions", {subscription(1)}}}.dump());
+  EXPECT_EQ(answer_to(R"({"op": "end"})"), "'end' is not done here: a monitor only shows");
+  topic_.wait_for_looks();
+  EXPECT_TRUE(topic_.write("bright"));
 }
 
 TEST_F(FoxgloveBridgeTest, KeepsOfATopicNoMoreThan16MBForThoseWhoComeLater) {

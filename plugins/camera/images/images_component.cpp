@@ -23,6 +23,7 @@ namespace {
 
 constexpr Duration kLookEvery = seconds(0.001);
 constexpr int kMaxPicturesAStep = 2;  // a pair: what came late is caught up in several steps
+constexpr int kMaxBadAPicture = 4;    // that are left out before it in a step
 
 std::unique_ptr<pictures::PictureSource> source_of(const Parameters& parameters) {
   const bool folders = !parameters.left.empty() || !parameters.right.empty();
@@ -113,15 +114,14 @@ bool Images::is_usable(const pictures::TimedPicture& timed) {
   return false;
 }
 
-/// Reads the next picture that can be used.
+/// Reads the next picture that can be used; a step does not look further than to a few that cannot.
 void Images::fetch() {
-  while (!next_ && !exhausted_ && refusal_.empty()) {
+  for (int bad = 0; bad <= kMaxBadAPicture && !next_ && !exhausted_ && refusal_.empty(); ++bad) {
     auto timed = source_->next();
-    if (!timed) {
-      exhausted_ = true;
-    } else if (is_usable(*timed)) {
-      next_ = std::move(timed);
-    }
+    if (timed && is_usable(*timed)) next_ = std::move(timed);
+    if (timed) continue;
+    exhausted_ = !source_->has_more();
+    return;
   }
 }
 

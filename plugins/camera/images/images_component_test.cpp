@@ -137,6 +137,22 @@ TEST_F(ImagesTest, PicturesThatCannotBeUsedAreLeftOutNamedAndCounted) {
       "left out: the left picture stamped 0.200000 s has 9 x 6 pixels, the first one has 8 x 6");
 }
 
+TEST_F(ImagesTest, AStepDoesNotReadAllPicturesThatCannotBeUsed) {
+  files_.write("left/0.png", 1);
+  files_.write("right/0.png", 1);
+  for (int i = 1; i <= 50; ++i) {
+    files_.write("left/" + std::to_string(i) + ".png", 1, 9, 6);
+    files_.write("right/" + std::to_string(i) + ".png", 1, 9, 6);
+  }
+  ComponentHarness images{built_plugins(), options(", bad_pictures: skip")};
+  images.step(0);
+  images.step(0.001);
+  EXPECT_LE(images.lines().size(), 10U);
+  left(images, 0, 1);
+  EXPECT_EQ(images.figures().metrics.at("pictures_skipped"), 100);
+  EXPECT_EQ(images.lines().back(), "2 pictures were played");
+}
+
 TEST_F(ImagesTest, ARunWithoutAnyUsablePictureIsRefused) {
   files_.write_text("left/0.png", "no PNG");
   files_.write_text("right/0.png", "no PNG");

@@ -20,6 +20,7 @@ namespace armature::camera::images {
 namespace {
 
 constexpr Duration kUsualInterval = seconds(0.1);  // until two pictures tell a better one
+constexpr int kMaxLooked = 1000;  // messages until it says that there is nothing yet
 constexpr std::string_view kImage = "sensor_msgs/msg/Image";
 constexpr std::string_view kCompressed = "sensor_msgs/msg/CompressedImage";
 
@@ -129,9 +130,21 @@ pictures::TimedPicture RecordedPictures::picture_of(pictures::Side side,
 
 std::optional<pictures::TimedPicture> RecordedPictures::read_next() {
   try {
-    while (const auto message = reader_->next()) {
+    for (int looked = 0; looked < kMaxLooked; ++looked) {
+      const auto message = reader_->next();
+      if (!message) {
+        ended_ = true;
+        return std::nullopt;
+      }
       const auto side = side_of(*message);
       if (!side) continue;
+      std::string& topic = topics_[static_cast<std::size_t>(*side)];
+      if (topic.empty()) topic = message->channel->topic;
+      if (topic != message->channel->topic) {
+        return damage(fmt::format("'{}' may be {} or {}; write the whole name",
+                                  *side == pictures::Side::left ? left_ : right_, topic,
+                                  message->channel->topic));
+      }
       if (*side == pictures::Side::left) {
         if (last_left_ && message->publish_time > *last_left_) {
           last_interval_ = message->publish_time - *last_left_;
@@ -142,8 +155,8 @@ std::optional<pictures::TimedPicture> RecordedPictures::read_next() {
     }
   } catch (const std::runtime_error& error) {
     error_ = error.what();
+    ended_ = true;
   }
-  ended_ = true;
   return std::nullopt;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -20,13 +21,15 @@ class RecordedPictures final : public pictures::PictureSource {
  public:
   /// `left` and `right` are whole names of topics, or their last words: "left/image_raw" of
   /// "/dental_lamp/left/image_raw". Throws SetupError when the file is none, when its summary has
-  /// no such topic, or several. A file without a summary is looked through by `next` alone.
+  /// no such topic, or several. A file without a summary is looked through by `next` alone: of
+  /// several topics it plays the first, and tells the pictures of the others as damage.
   RecordedPictures(std::filesystem::path file, std::string left, std::string right);
 
   std::optional<pictures::TimedPicture> next() override;
   void rewind() override;
   Duration last_interval() const override { return last_interval_; }
   std::string remark() const override { return remark_; }
+  bool has_more() const override { return !ended_; }
 
  private:
   std::optional<pictures::TimedPicture> read_next();
@@ -36,6 +39,7 @@ class RecordedPictures final : public pictures::PictureSource {
 
   std::filesystem::path file_;
   std::string left_, right_;
+  std::array<std::string, 2> topics_;   // whole names, by side; "" before the first picture
   std::vector<std::string> processes_;  // whose recordings are in the file
   std::unique_ptr<McapReader> reader_;
   std::optional<Time> last_left_;

@@ -169,6 +169,41 @@ TEST_F(RecordedPicturesTest, RefusesAFileThatIsNoRecordingAndPlaysOneThatWasCutO
   EXPECT_NE(pictures.remark(), "");
 }
 
+TEST_F(RecordedPicturesTest, OfTwoTopicsInACutOffFilePlaysTheFirstAndTellsTheOther) {
+  write([&](McapWriter& writer) {
+    const std::uint16_t second = channel(writer, 1, "/second/left/image_raw");
+    for (const int i : {1, 2}) {
+      put(writer, left_, grey_image(i, 10), i);
+      put(writer, second, grey_image(i, 99), i);
+      put(writer, right_, grey_image(i, 20), i);
+      writer.end_chunk();
+    }
+  });
+  file_.replace(file_.bytes().substr(0, file_.bytes().size() - 8));
+  RecordedPictures pictures{file_.path(), "left/image_raw", "right/image_raw"};
+  for (int i = 0; i < 2; ++i) {
+    EXPECT_EQ(pictures.next()->picture.value().pixels.front(), 10);
+    EXPECT_EQ(pictures.next()->picture.error().text,
+              file_.path().string() +
+                  ": 'left/image_raw' may be /lamp/left/image_raw or /second/left/image_raw; write "
+                  "the whole name");
+    EXPECT_EQ(pictures.next()->picture.value().pixels.front(), 20);
+  }
+}
+
+TEST_F(RecordedPicturesTest, LooksThroughAThousandMessagesAtATime) {
+  write([&](McapWriter& writer) {
+    put(writer, left_, grey_image(1, 1), 1);
+    for (int i = 0; i < 2500; ++i) put(writer, other_, grey_image(1, 1), 1);
+  });
+  RecordedPictures pictures{file_.path(), "left/image_raw", "right/image_raw"};
+  EXPECT_TRUE(pictures.next());
+  for (const bool has_more : {true, true, false}) {
+    EXPECT_FALSE(pictures.next());
+    EXPECT_EQ(pictures.has_more(), has_more);
+  }
+}
+
 TEST_F(RecordedPicturesTest, TellsADamagedChunkWhereItsPicturesAreMissingInEachRound) {
   write_damaged();
   RecordedPictures pictures{file_.path(), "left/image_raw", "right/image_raw"};

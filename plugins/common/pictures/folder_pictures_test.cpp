@@ -72,6 +72,17 @@ TEST_F(FolderPicturesTest, TurnsColoursGreyAndKeepsWhatTheSensorHad) {
   EXPECT_NEAR(timed->picture->pixels.at(20), 0.587 * 200, 1) << "the green of ITU-R BT.601";
 }
 
+TEST_F(FolderPicturesTest, RefusesAPictureOfSixteenBitsOfWhichItWouldReadTheUpperEight) {
+  files_.write("right/a.png", 1);
+  std::filesystem::create_directories(files_.path("left"));
+  ASSERT_TRUE(cv::imwrite(files_.path("left/a.png"), cv::Mat{6, 8, CV_16UC1, cv::Scalar{4095}}));
+  FolderPictures pictures{two_folders()};
+  const auto timed = pictures.next();
+  ASSERT_TRUE(timed && !timed->picture);
+  EXPECT_EQ(timed->picture.error().text,
+            files_.path("left/a.png") + ": it has 16 bits a pixel; 8 are read");
+}
+
 TEST_F(FolderPicturesTest, TakesTimesFromAFileInTheirOrder) {
   for (const std::string name : {"a.png", "b.png", "c.png"}) {
     files_.write("left/" + name, name[0]);

@@ -66,7 +66,8 @@ Expected<GrayPicture> decode_picture(std::span<const std::uint8_t> bytes) {
   try {
     const cv::Mat file{1, static_cast<int>(bytes.size()), CV_8UC1,
                        const_cast<std::uint8_t*>(bytes.data())};
-    gray = cv::imdecode(file, cv::IMREAD_GRAYSCALE | cv::IMREAD_IGNORE_ORIENTATION);
+    gray = cv::imdecode(file,
+                        cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
     return refuse(fmt::format(
         "it is not a picture that can be read, or has too many pixels; a side may have {}",
@@ -74,6 +75,9 @@ Expected<GrayPicture> decode_picture(std::span<const std::uint8_t> bytes) {
   }
   if (gray.empty()) return refuse("it is not a picture that can be read");
   if (std::max(gray.cols, gray.rows) > kMaxSide) return refuse_size(gray.cols, gray.rows);
+  if (gray.depth() != CV_8U) {
+    return refuse(fmt::format("it has {} bits a pixel; 8 are read", 8 * gray.elemSize1()));
+  }
   return picture_of(gray);
 }
 

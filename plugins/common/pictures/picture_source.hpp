@@ -25,8 +25,11 @@ struct TimedPicture {
 class PictureSource {
  public:
   virtual ~PictureSource() = default;
-  /// The next one, usable or with the reason why it is not; nothing after the last one.
+  /// The next one, usable or with the reason why it is not; nothing after the last one, or when
+  /// much was looked through without one.
   virtual std::optional<TimedPicture> next() = 0;
+  /// After nothing came: whether something may come still.
+  virtual bool has_more() const { return false; }
   /// Begins again with the first one.
   virtual void rewind() = 0;
   /// How long the last picture lasts until the first one may come again.

@@ -15,16 +15,17 @@ RegistrationDialogue::RegistrationDialogue(Output<msg::RegistrationRequest> requ
 
 bool RegistrationDialogue::due(Time now) const {
   constexpr Duration kAnswerWithin = seconds(1.0);
-  return !last_id_ || now - requested_at_ >= kAnswerWithin;
+  return asked_.none() || now - requested_at_ >= kAnswerWithin;
 }
 
 void RegistrationDialogue::ask(const Question& question, Time now) {
   requested_at_ = now;
   // A number that nobody else's question on this topic has, as far as one can tell.
-  last_id_ = static_cast<std::uint64_t>(now.ns);
+  const auto id = static_cast<std::uint64_t>(now.ns);
+  asked_.add(id);
   auto loan = requests_.loan();
   write_header(loan->header_(), now, question.robot_frame);
-  loan->request_id_(*last_id_);
+  loan->request_id_(id);
   loan->image_markers_() = question.image_markers;
   loan->robot_markers_() = question.robot_markers;
   loan->ordered_(false);

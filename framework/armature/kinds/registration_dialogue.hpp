@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -13,6 +16,22 @@
 #include "armature/values/time.hpp"
 
 namespace armature ARMATURE_EXPORT {
+
+/// The numbers of the last questions: an answer may take longer than it takes to ask again.
+class LastQuestions {
+ public:
+  void add(std::uint64_t id) {
+    if (!has(id)) ids_[added_++ % ids_.size()] = id;
+  }
+  bool has(std::uint64_t id) const {
+    return std::ranges::find(ids_, std::optional{id}) != ids_.end();
+  }
+  bool none() const { return added_ == 0; }
+
+ private:
+  std::array<std::optional<std::uint64_t>, 3> ids_;
+  std::size_t added_ = 0;
+};
 
 /// How the markers of an image lie before a robot: a task's question to a registration, and the
 /// answers to it.
@@ -33,19 +52,19 @@ class RegistrationDialogue {
   /// True when it has not been asked yet, or not been answered in time.
   bool due(Time now) const;
   void ask(const Question& question, Time now);
-  /// No answer to the last question counts any more: what it asked of has changed.
-  void forget() { last_id_.reset(); }
-  /// Calls `hear` with every answer to the last question; those to somebody else's are none.
+  /// No answer to what was asked counts any more: what it asked of has changed.
+  void forget() { asked_ = {}; }
+  /// Calls `hear` with every answer to the last questions; those to somebody else's are none.
   template <class Hear>
   void listen(const Hear& hear) const {
     for (std::size_t i = 0; i < answers_.size(); ++i) {
-      if (last_id_ && answers_[i].request_id_() == *last_id_) hear(answers_[i]);
+      if (asked_.has(answers_[i].request_id_())) hear(answers_[i]);
     }
   }
 
  private:
   double marker_error_, match_tolerance_;
-  std::optional<std::uint64_t> last_id_;
+  LastQuestions asked_;
   Time requested_at_;
   Output<msg::RegistrationRequest> requests_;
   Input<msg::RegistrationResponse> answers_;
@@ -58,18 +77,17 @@ class OverheardRegistration {
                         Input<msg::RegistrationResponse> answers)
       : requests_{requests}, answers_{answers} {}
 
-  /// Calls `hear` with every answer to the task's last question that tells a registration.
+  /// Calls `hear` with every answer to the task's last questions that tells a registration.
   template <class Hear>
   void listen(const Hear& hear) {
-    if (requests_.latest()) last_id_ = requests_.latest()->request_id_();
+    if (requests_.latest()) asked_.add(requests_.latest()->request_id_());
     for (std::size_t i = 0; i < answers_.size(); ++i) {
-      const bool is_answer = last_id_ && answers_[i].request_id_() == *last_id_;
-      if (is_answer && answers_[i].valid_()) hear(answers_[i]);
+      if (asked_.has(answers_[i].request_id_()) && answers_[i].valid_()) hear(answers_[i]);
     }
   }
 
  private:
-  std::optional<std::uint64_t> last_id_;
+  LastQuestions asked_;
   Input<msg::RegistrationRequest> requests_;
   Input<msg::RegistrationResponse> answers_;
 };

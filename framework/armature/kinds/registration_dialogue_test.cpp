@@ -101,18 +101,20 @@ TEST_F(RegistrationDialogueTest, AsksAgainUnderANewNumberWhenNobodyAnswersWithin
   EXPECT_NE(second[0].request_id_(), first[0].request_id_());
 }
 
-TEST_F(RegistrationDialogueTest, HearsOnlyTheAnswerToItsLastQuestion) {
+TEST_F(RegistrationDialogueTest, HearsOnlyTheAnswersToItsLastThreeQuestions) {
   task_.send("registration", answer(0));
   const std::uint64_t old = asked_at(10)[0].request_id_();
-  const std::uint64_t last = asked_at(11)[0].request_id_();
+  const std::uint64_t late = asked_at(11)[0].request_id_();
+  asked_at(12);
+  const std::uint64_t last = asked_at(13)[0].request_id_();
   task_.send("registration", answer(old));
   task_.send("registration", answer(last + 1));
-  task_.step(11.1);
+  task_.step(13.1);
   EXPECT_TRUE(task_.lines().empty());
-  task_.send("registration", answer(last, false));
-  task_.step(11.2);
+  task_.send("registration", answer(late, false));
+  task_.step(13.2);
   task_.send("registration", answer(last));
-  task_.step(11.3);
+  task_.step(13.3);
   EXPECT_EQ(task_.lines(), (std::vector<std::string>{"too few", "registered"}));
 }
 
@@ -126,6 +128,7 @@ TEST_F(RegistrationDialogueTest, WhoWatchesHearsWhatTheTaskWasTold) {
   watcher_.send("registration", answer(last.request_id_(), false));
   watcher_.step(11);
   EXPECT_TRUE(watcher_.lines().empty());
+  watcher_.send("request", asked_at(12)[0]);
   watcher_.send("registration", answer(last.request_id_()));
   watcher_.step(12);
   EXPECT_EQ(watcher_.lines(), (std::vector<std::string>{"registered"}));

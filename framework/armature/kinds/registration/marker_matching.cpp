@@ -2,6 +2,7 @@
 #include "armature/kinds/registration/marker_matching.hpp"
 
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -89,14 +90,17 @@ void Search::consider() {
   if (fit.rms_m < second_.rms_m) second_ = std::move(fit);
 }
 
-/// "markers 1 and 3": those that the second choice takes for another.
+/// What the second choice takes for another: "markers 1, 3 may be exchanged".
 std::string Search::exchanged() const {
-  std::string text;
+  std::vector<std::size_t> others;
   for (std::size_t i = 0; i < planned_.size(); ++i) {
-    if (best_.choice[i] == second_.choice[i]) continue;
-    text += (text.empty() ? "" : ", ") + std::to_string(i + 1);
+    if (best_.choice[i] != second_.choice[i]) others.push_back(i + 1);
   }
-  return text;
+  if (others.size() > 1) return fmt::format("markers {} may be exchanged", fmt::join(others, ", "));
+  const std::size_t i = others.front() - 1;
+  const auto [one, other] = std::minmax(best_.choice[i], second_.choice[i]);
+  return fmt::format("points {} and {} may both be marker {}, was it measured twice?", one + 1,
+                     other + 1, i + 1);
 }
 
 Expected<MarkerMatch> Search::answer() const {
@@ -120,10 +124,8 @@ Expected<MarkerMatch> Search::answer() const {
   // Half the tolerance is three times the error of a marker: a wrong choice that fits as well.
   constexpr double kAlike = 2, kNoise = 0.1;
   if (second_.rms_m < kAlike * best_.rms_m + kNoise * tolerance_m_) {
-    return refuse(
-        fmt::format("ambiguous: markers {} may be exchanged (fits to {:.3f} mm, or "
-                    "exchanged to {:.3f} mm)",
-                    exchanged(), 1e3 * best_.rms_m, 1e3 * second_.rms_m));
+    return refuse(fmt::format("ambiguous: {} (fits to {:.3f} mm, the other way to {:.3f} mm)",
+                              exchanged(), 1e3 * best_.rms_m, 1e3 * second_.rms_m));
   }
   return MarkerMatch{best_.choice, best_mirrored_m_};
 }

@@ -85,6 +85,17 @@ TEST_F(MarkerMatching, RefusesAMirrorImageAlthoughAllDistancesAgree) {
   }
 }
 
+TEST_F(MarkerMatching, AsksWhetherAMarkerWasMeasuredTwice) {
+  Points measured = head();
+  measured.push_back(measured[2] + Eigen::Vector3d{0.0002, 0, 0});
+  const auto match = match_markers(head(), measured, kTolerance);
+  ASSERT_FALSE(match);
+  EXPECT_TRUE(match.error().text.starts_with(
+      "ambiguous: points 3 and 7 may both be marker 3, was it measured twice? (fits to 0.000 mm, "
+      "the other way to "))
+      << match.error().text;
+}
+
 TEST_F(MarkerMatching, SaysWhichMarkersCouldBeExchanged) {
   // Markers 2 and 4 are alike seen from the others, which lie in one plane with the middle.
   const Points planned{{0.1, 0, 0}, {0, 0.05, 0}, {-0.06, 0, 0}, {0, -0.05, 0}};

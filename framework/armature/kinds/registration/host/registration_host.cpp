@@ -79,6 +79,19 @@ std::optional<std::string> raise_errors(const MarkerPairs& markers,
   return std::nullopt;
 }
 
+/// What a plugin may not answer: all else here counts with the number of markers.
+std::optional<std::string> unusable(const Registration& found, std::size_t markers) {
+  if (found.used.size() != markers || found.residual_m.size() != markers) {
+    return fmt::format("the plugin tells {} markers and {} residuals of {} markers",
+                       found.used.size(), found.residual_m.size(), markers);
+  }
+  if (std::ranges::find(found.used, true) == found.used.end()) {
+    return "the plugin tells a map, and that it used no marker";
+  }
+  if (!found.robot_T_image.matrix().allFinite()) return "the plugin's map is not finite";
+  return std::nullopt;
+}
+
 Expected<Answer> answer_to(const Registrar& registrar, const Parameters& parameters,
                            const msg::RegistrationRequest& request) {
   if (auto wrong = too_many(request)) return refuse(std::move(*wrong));
@@ -89,6 +102,7 @@ Expected<Answer> answer_to(const Registrar& registrar, const Parameters& paramet
   for (const std::size_t i : match->measured) markers.robot.push_back(robot[i]);
   auto found = guarded([&] { return registrar.find(markers); });
   if (!found) return tl::unexpected{found.error()};
+  if (auto wrong = unusable(*found, markers.image.size())) return refuse(std::move(*wrong));
   Answer answer{std::move(*match), std::move(*found), {}};
   // A marker that was left out passes no error on, and to find it again and again takes long.
   const MarkerPairs used = only(markers, answer.found.used);

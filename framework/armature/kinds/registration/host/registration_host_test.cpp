@@ -23,6 +23,7 @@ namespace {
 class FirstMarker final : public Registrar {
  public:
   static inline bool throws = false, uses_all = false;
+  static inline void (*spoils)(Registration& found) = nullptr;
   static inline std::size_t asked_with = 0;  // markers, the last time
 
   Expected<Registration> find(const MarkerPairs& markers) const override {
@@ -35,6 +36,7 @@ class FirstMarker final : public Registrar {
     found.used[0] = true;
     found.condition = 2.5;
     measure_residuals(markers, found);
+    if (spoils) spoils(found);
     return found;
   }
 };
@@ -240,6 +242,24 @@ TEST_F(RegistrationHostTest, MarkersMayBeToldInAnyFrameAndTheAnswerIsInTheSame) 
 
 TEST_F(RegistrationHostTest, AnExceptionOfThePluginIsAReasonAndTheNextRequestIsAnswered) {
   expect_survives(FirstMarker::throws, request(1));
+}
+
+TEST_F(RegistrationHostTest, AnAnswerOfThePluginThatIsNoneIsRefused) {
+  const auto refusal_with = [&](void (*spoils)(Registration&)) {
+    FirstMarker::spoils = spoils;
+    const msg::RegistrationResponse answer = ask(request(1));
+    FirstMarker::spoils = nullptr;
+    EXPECT_FALSE(answer.valid_());
+    return answer.reason_();
+  };
+  EXPECT_EQ(refusal_with([](Registration& found) { found.used.resize(5, true); }),
+            "the plugin tells 5 markers and 4 residuals of 4 markers");
+  EXPECT_EQ(refusal_with([](Registration& found) { found.residual_m.pop_back(); }),
+            "the plugin tells 4 markers and 3 residuals of 4 markers");
+  EXPECT_EQ(refusal_with([](Registration& found) { found.used.assign(4, false); }),
+            "the plugin tells a map, and that it used no marker");
+  EXPECT_EQ(refusal_with([](Registration& found) { found.robot_T_image(0, 3) = NAN; }),
+            "the plugin's map is not finite");
 }
 
 }  // namespace

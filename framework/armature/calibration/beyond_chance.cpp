@@ -13,12 +13,15 @@ double chance_of(const VarianceRatio& ratio) {
   const double excess = ratio.equations * ratio.value;
   const double y = ratio.freedom / (ratio.freedom + excess);
   const double b = ratio.freedom / 2;
-  double term = 1, sum = 1;
+  // Logarithms: the power alone may be too small for a number, and the sum of what it has to be
+  // multiplied by too large.
+  double log_term = b > 0 ? b * std::log(y) : 0;
+  double sum = std::exp(log_term);
   for (int j = 1; j < (ratio.equations + 1) / 2; ++j) {
-    term *= (b + j - 1) / j * (1 - y);
-    sum += term;
+    log_term += std::log((b + j - 1) / j * (1 - y));
+    sum += std::exp(log_term);
   }
-  return std::pow(y, b) * sum;
+  return sum;
 }
 
 }  // namespace

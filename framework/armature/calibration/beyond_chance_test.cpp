@@ -39,6 +39,12 @@ TEST(BeyondChance, GrowsWithTheNumberOfTries) {
   EXPECT_FALSE(beyond_chance({once, 3, 30}, 100));
 }
 
+TEST(BeyondChance, IsSoForManyEquationsAndAGreatRatio) {
+  EXPECT_TRUE(beyond_chance({100, 294, 1e6}, 1));
+  EXPECT_TRUE(beyond_chance({3, 1194, 1e6}, 1));
+  EXPECT_FALSE(beyond_chance({1, 1194, 1e6}, 1));
+}
+
 TEST(BeyondChance, LastsWithoutAnythingLeftOver) {
   EXPECT_FALSE(beyond_chance({1e12, 3, 0}, 1));
   EXPECT_TRUE(beyond_chance({std::numeric_limits<double>::infinity(), 3, 9}, 10));

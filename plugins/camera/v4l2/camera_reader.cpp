@@ -10,6 +10,8 @@ namespace armature::camera::v4l2 {
 namespace {
 
 constexpr Duration kOldest = seconds(10);
+constexpr Duration kOneMoment = seconds(0.001);
+constexpr int kMaxAttempts = 10;
 constexpr int kMaxEmpty = 100;                 // wakes without a picture, one after the other
 constexpr std::uint32_t kMaxLost = 1'000'000;  // more is a driver that counts otherwise
 
@@ -83,8 +85,16 @@ Expected<void> CameraReader::hand_over(VideoStream& stream, const VideoStream::F
 
 Time CameraReader::stamp_of(const VideoStream::Frame& frame,
                             const DriverQueue<Report>& reports) const {
-  const Time now = reports.now();
-  const Duration age = frame.at ? device_->monotonic_now() - *frame.at : Duration{-1};
+  // Both clocks at one moment: a thread that is suspended between them asks again.
+  Time now;
+  Duration before, after = device_->monotonic_now();
+  int attempts = 0;
+  do {
+    before = after;
+    now = reports.now();
+    after = device_->monotonic_now();
+  } while (after - before > kOneMoment && ++attempts < kMaxAttempts);
+  const Duration age = frame.at ? before - *frame.at : Duration{-1};
   const bool is_told = age >= Duration{0} && age <= kOldest;
   return now - (is_told ? age : Duration{0}) - timing_.delay;
 }

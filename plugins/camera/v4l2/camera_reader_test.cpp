@@ -35,7 +35,9 @@ class CameraReaderTest : public testing::Test {
     self = &queue;
     const std::string name = "camera";
     queue.start(name,
-                {.now = [] { return kDeploymentNow; }, .wake = [] {}, .fault = [](const auto&) {}});
+                {.now = [camera] { return kDeploymentNow + (camera->monotonic - kMonotonicNow); },
+                 .wake = [] {},
+                 .fault = [](const auto&) {}});
     while (!camera->is_idle) std::this_thread::yield();
     queued_at_the_end_ = camera->queued();
     queue.request_stop();
@@ -83,6 +85,12 @@ TEST_F(CameraReaderTest, APictureWithoutATimeOrWithAnImpossibleOneHasTheTimeWhen
   untold.flags = V4L2_BUF_FLAG_TIMESTAMP_UNKNOWN;
   camera_->events = {untold, grey(2, 60), grey(3, 20), grey(4)};
   EXPECT_EQ(reports(), (Lines{"started", "1 0 ms", "2 0 ms", "3 0 ms", "4 -100 ms"}));
+}
+
+TEST_F(CameraReaderTest, AThreadThatIsSuspendedBetweenTheTwoClocksAsksThemAgain) {
+  camera_->suspensions = {seconds(0.02), seconds(0.02)};
+  camera_->events = {grey(1)};
+  EXPECT_EQ(reports(), (Lines{"started", "1 -100 ms"}));
 }
 
 TEST_F(CameraReaderTest, PicturesThatAreShortOrDamagedAreNamedAndTheNextOneIsTaken) {

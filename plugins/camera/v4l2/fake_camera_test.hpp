@@ -39,11 +39,13 @@ class FakeCamera final : public VideoDevice {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> sizes{{4, 2}};  // the first where none fits
   std::uint32_t padding = 0;                                           // bytes behind each row
   double rate = 0;                                                     // 0: it cannot be set
+  std::map<std::uint32_t, double> rates;                               // of single formats
   std::map<std::uint32_t, std::pair<int, int>> controls;               // id: from, to
   std::deque<int> open_errors;                                         // of the next openings
   int start_error = 0;
   std::deque<Event> events;
-  Duration monotonic{0};
+  mutable Duration monotonic{0};
+  mutable std::deque<Duration> suspensions;  // of its user, before the clock is asked, in turn
 
   // What was done to it.
   std::map<std::uint32_t, int> set;  // controls
@@ -86,7 +88,13 @@ class FakeCamera final : public VideoDevice {
     poll(&stop, 1, -1);
     return Wake::stop;
   }
-  Duration monotonic_now() const override { return monotonic; }
+  Duration monotonic_now() const override {
+    if (!suspensions.empty()) {
+      monotonic += suspensions.front();
+      suspensions.pop_front();
+    }
+    return monotonic;
+  }
 
   int request(unsigned long number, void* argument) override {
     EXPECT_TRUE(is_open);
@@ -139,6 +147,7 @@ class FakeCamera final : public VideoDevice {
       format.width = sizes.front().first;
       format.height = sizes.front().second;
     }
+    pixel_format_ = format.pixelformat;
     const bool two =
         format.pixelformat == V4L2_PIX_FMT_YUYV || format.pixelformat == V4L2_PIX_FMT_UYVY;
     format.bytesperline = format.width * (two ? 2 : 1) + padding;
@@ -146,9 +155,11 @@ class FakeCamera final : public VideoDevice {
     return 0;
   }
   int take(v4l2_captureparm& parameters) const {
-    if (rate == 0) return ENOTTY;
+    const auto own = rates.find(pixel_format_);
+    const double told = own == rates.end() ? rate : own->second;
+    if (told == 0) return ENOTTY;
     parameters.capability = V4L2_CAP_TIMEPERFRAME;
-    parameters.timeperframe = {10, static_cast<std::uint32_t>(10 * rate)};
+    parameters.timeperframe = {10, static_cast<std::uint32_t>(10 * told)};
     return 0;
   }
   int tell(v4l2_queryctrl& range) const {
@@ -197,7 +208,7 @@ class FakeCamera final : public VideoDevice {
   }
 
   bool runs_ = false;
-  std::uint32_t size_image_ = 0, sequence_ = 0;
+  std::uint32_t size_image_ = 0, sequence_ = 0, pixel_format_ = 0;
   std::vector<std::vector<std::uint8_t>> buffers_;
   std::deque<std::uint32_t> queued_;
 };

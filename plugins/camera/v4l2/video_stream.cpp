@@ -61,8 +61,7 @@ Expected<void> VideoStream::open() {
         fmt::format("cannot open {}: {}{}", settings_.device, text_of(error), hint(error)));
   }
   const auto opened = check_device()
-                          .and_then([&] { return set_format(); })
-                          .and_then([&] { return set_rate(); })
+                          .and_then([&] { return set_format_and_rate(); })
                           .and_then([&] { return set_exposure_and_gain(); })
                           .and_then([&] { return map_buffers(); });
   if (!opened) {
@@ -141,40 +140,45 @@ std::string VideoStream::offered_sizes(std::uint32_t pixel_format) {
   return sizes.empty() ? "" : fmt::format("; it offers {}", fmt::join(sizes, ", "));
 }
 
-Expected<void> VideoStream::set_format() {
+Expected<void> VideoStream::set_format_and_rate() {
   const std::vector<std::uint32_t> offered = offered_formats();
-  const auto chosen = std::ranges::find_if(kFormats, [&](const Format& format) {
-    return (!settings_.layout || format.layout == *settings_.layout) &&
-           std::ranges::find(offered, format.pixel_format) != offered.end();
-  });
-  if (chosen == kFormats.end()) {
-    std::vector<std::string> names;
-    std::ranges::transform(offered, std::back_inserter(names), name_of);
-    return refuse(fmt::format("{} has not the format that is asked for; it offers {}", card_,
-                              fmt::join(names, ", ")));
+  std::optional<Expected<void>> first;  // of those that are refused
+  for (const auto& [layout, pixel_format] : kFormats) {
+    const bool is_asked_for = !settings_.layout || layout == *settings_.layout;
+    if (!is_asked_for || std::ranges::find(offered, pixel_format) == offered.end()) continue;
+    layout_ = layout;
+    Expected<void> set = set_format(pixel_format).and_then([&] { return set_rate(); });
+    if (set) return set;
+    if (!first) first = std::move(set);
   }
+  if (first) return *first;
+  std::vector<std::string> names;
+  std::ranges::transform(offered, std::back_inserter(names), name_of);
+  return refuse(fmt::format("{} has not the format that is asked for; it offers {}", card_,
+                            fmt::join(names, ", ")));
+}
+
+Expected<void> VideoStream::set_format(std::uint32_t pixel_format) {
   v4l2_format format{};
   format.type = V4L2_BUF_TYPE_VIDEO_CAPTURE;
   format.fmt.pix.width = static_cast<std::uint32_t>(settings_.width);
   format.fmt.pix.height = static_cast<std::uint32_t>(settings_.height);
-  format.fmt.pix.pixelformat = chosen->pixel_format;
+  format.fmt.pix.pixelformat = pixel_format;
   format.fmt.pix.field = V4L2_FIELD_NONE;
   if (const int error = device_.request(VIDIOC_S_FMT, &format)) {
     return refuse(fmt::format("{} takes no format: {}{}", card_, text_of(error), hint(error)));
   }
   const v4l2_pix_format& got = format.fmt.pix;
-  if (got.pixelformat != chosen->pixel_format ||
-      got.width != static_cast<std::uint32_t>(settings_.width) ||
+  if (got.pixelformat != pixel_format || got.width != static_cast<std::uint32_t>(settings_.width) ||
       got.height != static_cast<std::uint32_t>(settings_.height)) {
     return refuse(fmt::format("{} gives {} x {} pixels of {} instead of {} x {} of {}{}", card_,
                               got.width, got.height, name_of(got.pixelformat), settings_.width,
-                              settings_.height, name_of(chosen->pixel_format),
-                              offered_sizes(chosen->pixel_format)));
+                              settings_.height, name_of(pixel_format),
+                              offered_sizes(pixel_format)));
   }
   if (got.field != V4L2_FIELD_NONE && got.field != V4L2_FIELD_ANY) {
     return refuse(card_ + " gives interlaced pictures, which are not read");
   }
-  layout_ = chosen->layout;
   const std::size_t row = static_cast<std::size_t>(settings_.width) *
                           (layout_ == Layout::yuyv || layout_ == Layout::uyvy ? 2 : 1);
   stride_ = std::max<std::size_t>(got.bytesperline, row);

@@ -19,7 +19,7 @@ struct StreamSettings {
   std::string device;
   int width = 0, height = 0;     // [px]
   double rate = 0;               // [1/s]; 0: any
-  std::optional<Layout> layout;  // none: the first of Layout that the camera has
+  std::optional<Layout> layout;  // none: the first of Layout that the camera has so
   double exposure = 0;           // [s]; 0: automatic
   std::optional<int> gain;       // in the camera's steps; none: as it is
 };
@@ -56,7 +56,9 @@ class VideoStream {
 
  private:
   Expected<void> check_device();
-  Expected<void> set_format();
+  /// The first format of Layout that the camera has at the size and rate that are asked for.
+  Expected<void> set_format_and_rate();
+  Expected<void> set_format(std::uint32_t pixel_format);
   Expected<void> set_rate();
   Expected<void> set_exposure_and_gain();
   Expected<void> set_control(std::uint32_t id, std::int64_t value, const std::string& parameter);

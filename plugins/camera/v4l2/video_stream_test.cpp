@@ -82,6 +82,16 @@ TEST_F(VideoStreamTest, RefusesAnotherRateThanIsAskedFor) {
   EXPECT_EQ(refusal(), "");
 }
 
+TEST_F(VideoStreamTest, TakesTheFirstFormatThatTheCameraHasAtTheRate) {
+  camera_.formats = {V4L2_PIX_FMT_YUYV, V4L2_PIX_FMT_MJPEG};
+  camera_.rates = {{V4L2_PIX_FMT_YUYV, 10}, {V4L2_PIX_FMT_MJPEG, 30}};
+  settings_.rate = 30;
+  VideoStream stream{camera_, settings_};
+  const auto opened = stream.open();
+  ASSERT_TRUE(opened) << opened.error().text;
+  EXPECT_EQ(stream.layout(), Layout::mjpeg);
+}
+
 TEST_F(VideoStreamTest, SetsExposureAndGainOrSaysWhatTheCameraTakes) {
   settings_.exposure = 0.008;
   settings_.gain = 12;

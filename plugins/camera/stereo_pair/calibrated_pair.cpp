@@ -47,13 +47,10 @@ void check_rig(const StereoRig& rig, const StereoCamera& calibrated) {
 stereo::StereoCalibration calibration_of(const Parameters& parameters,
                                          const std::optional<StereoRig>& rig) {
   const bool in_mm = parameters.calibration_unit == Parameters::CalibrationUnit::mm;
-  stereo::StereoCalibration calibration = stereo::read_stereo_calibration(
-      parameters.calibration, parameters.right_calibration, in_mm ? 1e-3 : 1);
-  if (calibration.width == 0 && rig) {
-    calibration.width = rig->camera.width;
-    calibration.height = rig->camera.height;
-  }
-  return calibration;
+  const stereo::PictureSize of_rig =
+      rig ? stereo::PictureSize{rig->camera.width, rig->camera.height} : stereo::PictureSize{};
+  return stereo::read_stereo_calibration(parameters.calibration, parameters.right_calibration,
+                                         in_mm ? 1e-3 : 1, of_rig);
 }
 
 }  // namespace

@@ -365,6 +365,18 @@ TEST_F(StereoPairTest, ARigThatSaysAnotherPairIsRefusedWithTheNumbersThatItNeeds
       std::string::npos);
 }
 
+TEST_F(StereoPairTest, ACalibrationThatSaysNoSizeIsAskedForThatOfTheRig) {
+  std::string text = calibration();
+  const std::string size = "image_width: 640\nimage_height: 480\n";
+  text.erase(text.find(size), size.size());
+  std::ofstream{file_} << text.replace(text.find("316"), 3, "632");
+  const std::string refusal = refusal_of(built_plugins(), options("", kRig));
+  EXPECT_NE(refusal.find("the principal point (632, 236) of 'M1' is far from the middle of "
+                         "pictures of 640 x 480 pixels; was it calibrated at another size?"),
+            std::string::npos)
+      << refusal;
+}
+
 TEST_F(StereoPairTest, ACalibrationThatCannotBeUsedIsRefusedWithItsFile) {
   EXPECT_NE(refusal_of(built_plugins(), {.component = "{plugin: camera/stereo_pair}", .robot = {}})
                 .find("neither a calibration nor a rig says what the cameras are"),

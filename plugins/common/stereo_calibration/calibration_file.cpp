@@ -79,13 +79,17 @@ void read_camera(const Projections& p, MatrixReader& left_file, MatrixReader& ri
   rectification.camera.baseline_m = -p.right(0, 3) / f * unit_m;
 }
 
+/// The principal point of a lens that was calibrated at the size of the pictures is near their
+/// middle.
 void check_principal_point(const Lens& lens, const StereoCalibration& calibration,
                            MatrixReader& file, const std::string& key) {
+  constexpr double kAside = 0.2;  // of a side
+  const auto is_aside = [](double at, int size) { return !(std::abs(at / size - 0.5) < kAside); };
   const auto& [width, height] = std::pair{calibration.width, calibration.height};
-  if (width == 0 || (lens.cx > 0 && lens.cx < width && lens.cy > 0 && lens.cy < height)) return;
+  if (width == 0 || (!is_aside(lens.cx, width) && !is_aside(lens.cy, height))) return;
   file.problem(key,
-               fmt::format("the principal point ({:g}, {:g}) of '{}' is outside of pictures of {} "
-                           "x {} pixels; was it calibrated at another size?",
+               fmt::format("the principal point ({:g}, {:g}) of '{}' is far from the middle of "
+                           "pictures of {} x {} pixels; was it calibrated at another size?",
                            lens.cx, lens.cy, key, width, height));
 }
 
@@ -95,10 +99,15 @@ std::string key_of(const MatrixReader& file, const std::string& short_name,
   return file.has(long_name) && !file.has(short_name) ? long_name : short_name;
 }
 
-StereoCalibration read_opencv(const Node& root, double unit_m, Problems& problems) {
+StereoCalibration read_opencv(const Node& root, double unit_m, const PictureSize& else_size,
+                              Problems& problems) {
   MatrixReader file{root, problems};
   StereoCalibration calibration{.width = file.pixels("image_width"),
                                 .height = file.pixels("image_height")};
+  if (calibration.width == 0) {
+    calibration.width = else_size.width;
+    calibration.height = else_size.height;
+  }
   for (const auto& [lens, number] :
        {std::pair{&calibration.left, "1"}, {&calibration.right, "2"}}) {
     const std::string camera =
@@ -169,7 +178,8 @@ StereoCalibration read_ros(const Node& left_root, const Node& right_root, double
 }  // namespace
 
 StereoCalibration read_stereo_calibration(const std::filesystem::path& file,
-                                          const std::filesystem::path& right, double unit_m) {
+                                          const std::filesystem::path& right, double unit_m,
+                                          const PictureSize& else_size) {
   const Node root = parse(file);
   const bool of_ros = root.find("camera_matrix") != nullptr;
   Problems problems;
@@ -190,7 +200,7 @@ StereoCalibration read_stereo_calibration(const std::filesystem::path& file,
         "is no calibration of two cameras: it has neither 'M1' (OpenCV) nor 'camera_matrix' "
         "(ROS, one file of each camera)");
   } else {
-    calibration = read_opencv(root, unit_m, problems);
+    calibration = read_opencv(root, unit_m, else_size, problems);
   }
   problems.throw_if_any();
   return calibration;

@@ -197,8 +197,8 @@ TEST_F(CalibrationFileTest, TellsAllThatIsWrongWithLineAndColumn) {
                                          {"-60., 0., 0.", "-60., .nan, 0."}})),
             "3:1: missing 'R', a matrix: {rows: .., cols: .., data: [..]}\n"
             "13:10: 'data' of 'D1' (1 x 5) must be a list of 5 numbers, not of 4\n"
-            "15:4: the principal point (1325, 250) of 'M2' is outside of pictures of 640 x 480 "
-            "pixels; was it calibrated at another size?\n"
+            "15:4: the principal point (1325, 250) of 'M2' is far from the middle of pictures "
+            "of 640 x 480 pixels; was it calibrated at another size?\n"
             "33:18: 'data' of 'T' (3 x 1) must be a list of 3 numbers; item 2 must be a number, "
             "not '.nan'; it must be finite\n");
   EXPECT_EQ(problems_of(edited(kOpenCv, {{"image_width: 640", "image_width: wide"},
@@ -210,6 +210,16 @@ TEST_F(CalibrationFileTest, TellsAllThatIsWrongWithLineAndColumn) {
             "25:4: 'R' is no rotation: its numbers are up to 0.1 off the nearest one\n"
             "30:4: 'T' is 1 x 3, not 3 x 1\n"
             "34:14: 'image_width' must be a number of pixels from 1 to 16384, not 'wide'\n");
+}
+
+TEST_F(CalibrationFileTest, AsksForTheSizeAtWhichAPrincipalPointIsNotInTheMiddle) {
+  const std::string larger = edited(kOpenCv, {{"image_width: 640", "image_width: 1280"},
+                                              {"image_height: 480", "image_height: 720"}});
+  EXPECT_EQ(problems_of(larger),
+            "4:4: the principal point (320, 240) of 'M1' is far from the middle of pictures of "
+            "1280 x 720 pixels; was it calibrated at another size?\n"
+            "15:4: the principal point (325, 250) of 'M2' is far from the middle of pictures of "
+            "1280 x 720 pixels; was it calibrated at another size?\n");
 }
 
 TEST_F(CalibrationFileTest, NamesProjectionsThatAreOfNoRectifiedPair) {

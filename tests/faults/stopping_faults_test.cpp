@@ -296,6 +296,16 @@ TEST_F(PulledPlug, AReaderThatGoesAwayEndsTheRunInOrder) {
   EXPECT_THAT(report(), HasSubstr(R"("steps_to_rest":)"));
 }
 
+TEST_F(PulledPlug, AFullDiskUnderTheLinesDoesNotStopTheArm) {
+  Command run{{"/bin/bash", "-c", "(" + line() + ") 2>/dev/full >" + folder_ + "/out"}, options_};
+  std::this_thread::sleep_for(seconds{5});
+  const pid_t pid = std::stoi(file("pid"));
+  EXPECT_EQ(kill(pid, SIGINT), 0);
+  EXPECT_TRUE(ends_within(pid, kWithin));
+  EXPECT_THAT(report(), ContainsRegex(R"("steps_to_rest":"[1-9])"));
+  EXPECT_THAT(report(), HasSubstr(R"("ended_by":"interrupted")"));
+}
+
 TEST_F(PulledPlug, LinesThatNobodyReadsDelayNeitherTheArmNorItsEnd) {
   // The reader keeps the pipe open and takes nothing until the run is over.
   Command run{{"/bin/bash", "-c",
@@ -317,7 +327,7 @@ TEST_F(PulledPlug, LinesThatWereDroppedAreCountedAsSoonAsSomebodyReads) {
                "(" + line({"components.arm.params.talks=true"}) + ") 2>&1 >" + folder_ +
                    "/out | (sleep 5; cat)"},
               options_};
-  EXPECT_TRUE(run.wait_for_out(" lines are missing here, nobody read them in time\n", kWithin));
+  EXPECT_TRUE(run.wait_for_out(" lines are missing here: nobody read them in time", kWithin));
   kill(std::stoi(file("pid")), SIGINT);
   EXPECT_TRUE(run.finish(kWithin).out.ends_with("armature: interrupted\n"));
 }

@@ -14,7 +14,10 @@ namespace armature {
 namespace {
 
 std::string dropped_line(std::uint64_t count) {
-  return fmt::format("armature: {} lines are missing here, nobody read them in time", count);
+  return fmt::format(
+      "armature: {} lines are missing here: nobody read them in time, or there was no room for "
+      "them",
+      count);
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ struct LineWriter::Queue {
     news.notify_one();
   }
 
-  /// Writes all of `text`; waits as long as it takes.
-  void write_out(std::string_view text) {
+  /// Writes all of `text`; waits as long as it takes. False: the file has no room for it now.
+  bool write_out(std::string_view text) {
     while (!text.empty() && !closed) {
       const ssize_t n = ::write(file, text.data(), text.size());
       if (n > 0) text.remove_prefix(static_cast<std::size_t>(n));
@@ -54,8 +54,10 @@ struct LineWriter::Queue {
         poll(&writable, 1, -1);
         continue;
       }
+      if (errno == ENOSPC || errno == EDQUOT || errno == EFBIG) return false;
       closed = true;
     }
+    return true;
   }
 
   bool write_next() {
@@ -63,10 +65,12 @@ struct LineWriter::Queue {
     Slot& slot = slots[turn % kCapacity];
     if (slot.turn.load(std::memory_order_acquire) != turn + 1) return false;
     slot.text[slot.size] = '\n';
-    write_out({slot.text.data(), slot.size + 1});
+    if (!write_out({slot.text.data(), slot.size + 1})) ++dropped;
     slot.turn.store(turn + kCapacity, std::memory_order_release);
     written.store(turn + 1, std::memory_order_release);
-    if (const auto lost = dropped.exchange(0)) write_out(dropped_line(lost) + '\n');
+    if (const auto lost = dropped.exchange(0); lost > 0 && !write_out(dropped_line(lost) + '\n')) {
+      dropped += lost;
+    }
     return true;
   }
 

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <csignal>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -106,6 +107,19 @@ TEST_F(LineWriterTest, AReaderThatIsGoneIsNoticedAndEndsTheWriting) {
   lines.put("nobody");
   lines.flush(seconds(60));
   EXPECT_TRUE(lines.closed());
+}
+
+TEST_F(LineWriterTest, AFullDiskDropsLinesAndIsNoReaderThatIsGone) {
+  const int file = open("/dev/full", O_WRONLY | O_CLOEXEC);
+  LineWriter lines{file, missing};
+  lines.put("lost");
+  lines.flush(seconds(60));
+  EXPECT_FALSE(lines.closed());
+  dup2(ends_[1], file);  // there is room again
+  lines.put("written");
+  std::set<std::string> told{read_line(), read_line()};
+  EXPECT_EQ(told, (std::set<std::string>{"written", "1 missing"}));
+  close(file);
 }
 
 TEST_F(LineWriterTest, AFileAndAClosedDescriptorHaveNoReaderToLose) {

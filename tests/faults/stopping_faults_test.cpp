@@ -248,6 +248,19 @@ std::set<std::string> shared_memory_of(pid_t pid) {
   return files;
 }
 
+TEST_F(PulledPlug, TheEndOfAProcessIsSeenWhereALibraryIgnoresTheEndsOfChildren) {
+  Command run{command({kApart, "components.beat.params.ignores_children=true"}), options_};
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  const pid_t aside = run.child();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_FALSE(result.timed_out);
+  EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
+  EXPECT_THAT(result.out, HasSubstr("process 'aside' (pid " + std::to_string(aside) +
+                                    ") has ended, and something else in this process took its "
+                                    "exit code"));
+}
+
 TEST_F(PulledPlug, AKilledProcessWhoseComponentsAreIsolatedLeavesTheArmMoving) {
   Command run{command({"components.beat.process=aside"}), options_};
   ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <stdexcept>
 #include <thread>
@@ -36,6 +37,7 @@ class Beat final : public Component {
 
   void step(Time now) override {
     throw_in(Parameters::ThrowsIn::step);
+    if (parameters_.ignores_children) std::signal(SIGCHLD, SIG_IGN);
     if (parameters_.beats > 0 && sent_ == parameters_.beats) return;
     ++sent_;
     for (Output<msg::Capture>* output : {&beat_, &order_}) {

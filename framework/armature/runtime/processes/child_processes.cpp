@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <thread>
@@ -115,8 +116,9 @@ void ChildProcesses::watch(Child& child) {
                                 to_seconds(HostLink::kSilence)));
   }
   int status = 0;
+  pid_t changed = 0;
   while (child.pid > 0 && !child.ended &&
-         waitpid(child.pid, &status, WNOHANG | WUNTRACED | WCONTINUED) == child.pid) {
+         (changed = waitpid(child.pid, &status, WNOHANG | WUNTRACED | WCONTINUED)) == child.pid) {
     if (WIFSTOPPED(status)) {
       child.halted_at = SteadyClock::now();
     } else if (WIFCONTINUED(status)) {
@@ -125,6 +127,11 @@ void ChildProcesses::watch(Child& child) {
       hear(child);  // what it said before
       on_ended(child, text_of_status(status));
     }
+  }
+  // A library of a vendor may ignore SIGCHLD, or wait for every child.
+  if (changed < 0 && errno == ECHILD) {
+    hear(child);
+    on_ended(child, "has ended, and something else in this process took its exit code");
   }
 }
 

@@ -4,9 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <string>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -74,6 +76,23 @@ TEST_F(Meeting, AProcessThatIsKilledBeforeItEndsTheRunBeforeItsStartIsolatedOrNo
     EXPECT_THAT(result.err, HasSubstr("armature: process 'aside' (pid " + std::to_string(aside) +
                                       ") was killed by signal 9 (Killed) before the start"));
   }
+}
+
+TEST_F(Meeting, ThatIsInterruptedIsNoRunAndLeavesNoRecording) {
+  const TemporaryFolder folder;
+  const std::filesystem::path recording = folder / "run.mcap";
+  auto words = command();
+  words.insert(words.end(), {"--set", "components.beat.params.construction_s=100", "--set",
+                             "record={file: " + recording.string() + "}"});
+  Command run{words, {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}};
+  ASSERT_TRUE(run.wait_for_err("being constructed", seconds{30})) << run.err();
+  ASSERT_TRUE(run.wait_for_err("waiting for process 'aside'", seconds{30})) << run.err();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(seconds{30});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(result.out,
+            "{\"status\":\"not_started\",\"reason\":\"interrupted before the start\"}\n");
+  EXPECT_FALSE(std::filesystem::exists(recording));
 }
 
 }  // namespace

@@ -128,14 +128,12 @@ std::optional<std::string> MainWatch::stop_cause() {
   children_->update();
   tell_notes();
   if (started_) pass_on_troubles();
-  if (auto cause = interruption_now()) {
-    const auto host = started_ ? std::nullopt : children_->missing_host();
-    if (host) throw std::runtime_error{*cause + " while it waited for host '" + *host + "'"};
-    return cause;
-  }
-  auto lost = children_->stop_cause();
-  if (lost && !started_) throw std::runtime_error{*lost + " before the start"};
-  return lost;
+  auto cause = interruption_now();
+  const auto host = cause ? children_->missing_host() : std::nullopt;
+  if (!cause) cause = children_->stop_cause();
+  if (!cause || started_) return cause;
+  throw std::runtime_error{
+      *cause + (host ? " while it waited for host '" + *host + "'" : " before the start")};
 }
 
 void MainWatch::stopping(const std::string& cause, bool scenario_over) {

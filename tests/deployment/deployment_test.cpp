@@ -141,6 +141,21 @@ TEST_F(DeploymentTest, AGoalOfAFigureThatDoesNotApplyDecidesNothing) {
       << silent.table;
 }
 
+TEST_F(DeploymentTest, FiguresThatTwoComponentsTellBearTheirNames) {
+  const Told told =
+      run(", sim_latency_s: 0.004", "}\n  late: {plugin: test/ear, params: {listens_s: 0.05}",
+          "goals: {delay_s: 0.003}\n");
+  EXPECT_DOUBLE_EQ(told.metrics.at("ear.delay_s"), 0.004);
+  EXPECT_DOUBLE_EQ(told.metrics.at("late.delay_s"), 0.004);
+  EXPECT_FALSE(told.metrics.contains("delay_s"));
+  EXPECT_EQ(told.reasons,
+            (std::vector<std::string>{"ear.delay_s is 0.004, the goal is at most 0.003",
+                                      "late.delay_s is 0.004, the goal is at most 0.003"}));
+  EXPECT_NE(told.json.find(R"("ear.delay_s":0.004)"), std::string::npos) << told.json;
+  EXPECT_NE(told.json.find(R"("late.delay_s":0.004)"), std::string::npos) << told.json;
+  EXPECT_NE(told.table.find("  late: delay [s]"), std::string::npos) << told.table;
+}
+
 TEST_F(DeploymentTest, AStoryThatFailedTellsItsReason) {
   const Told deaf = run(", sim_latency_s: 1", ", params: {minds_silence: true}");
   EXPECT_TRUE(deaf.json.starts_with(R"({"status":"deaf","reason":"beat tells nothing",)"))

@@ -106,7 +106,7 @@ TEST_P(Stopping, SoItDoesAtTheEndOfTheStoryWhoseTellerIsNotSteppedAnyMore) {
       "  teller: {plugin: test/mover, topics: t, params: {ends_after_s: 0.05, rest_after_s: 0}}\n");
   EXPECT_THAT(halted.causes, ElementsAre("the scenario is over"));
   EXPECT_THAT(halted.said, testing::IsSupersetOf(kAtRest));
-  EXPECT_EQ(halted.texts.at("steps_after"), "0");
+  EXPECT_EQ(halted.texts.at("arm.steps_after"), "0");
 }
 
 TEST_P(Stopping, SoItDoesAfterAFault) {

@@ -29,18 +29,23 @@ double statistic_of(const Spread& spread, const SweepGoal& goal) {
   return spread.share_at_most(goal.share_of);
 }
 
-JudgedSweepGoal judged(const SweepGoal& goal, const std::vector<Spread>& figures) {
+/// Whether a figure is of that metric, or of one component of several that tell it.
+bool is_of(const std::string& figure, const std::string& metric) {
+  return figure == metric || figure.ends_with('.' + metric);
+}
+
+JudgedSweepGoal judged(const SweepGoal& goal, const Spread& spread) {
   JudgedSweepGoal result{.goal = goal, .value = std::nan("")};
-  const auto spread = std::ranges::find(figures, goal.metric, &Spread::figure);
-  if (spread == figures.end() || spread->values.empty()) {
-    result.applies = spread == figures.end() || spread->runs() > 0;
+  result.goal.metric = spread.figure;
+  if (spread.values.empty()) {
+    result.applies = spread.runs() > 0;
     if (result.applies) result.fault = "no run measured it";
     return result;
   }
-  result.value = statistic_of(*spread, goal);
-  if (spread->unmeasured > 0 && goal.statistic != SweepGoal::Statistic::share) {
+  result.value = statistic_of(spread, goal);
+  if (spread.unmeasured > 0 && goal.statistic != SweepGoal::Statistic::share) {
     result.fault =
-        fmt::format("{} of {} runs did not measure it", spread->unmeasured, spread->runs());
+        fmt::format("{} of {} runs did not measure it", spread.unmeasured, spread.runs());
   } else if (goal.at_least && result.value < *goal.at_least) {
     result.fault = fmt::format("at least {:g}", *goal.at_least);
   } else if (goal.at_most && result.value > *goal.at_most) {
@@ -48,13 +53,13 @@ JudgedSweepGoal judged(const SweepGoal& goal, const std::vector<Spread>& figures
   }
   if (!result.fault.empty() && goal.statistic == SweepGoal::Statistic::share) {
     const auto hits =
-        static_cast<std::size_t>(std::lround(result.value * static_cast<double>(spread->runs())));
-    const Bounds interval = share_interval(hits, spread->runs());
+        static_cast<std::size_t>(std::lround(result.value * static_cast<double>(spread.runs())));
+    const Bounds interval = share_interval(hits, spread.runs());
     const bool may_be_met =
         interval.high >= goal.at_least.value_or(0) && interval.low <= goal.at_most.value_or(1);
     if (may_be_met) {
       result.fault += fmt::format("; {} runs are too few to tell, it is between {:.3g} and {:.3g}",
-                                  spread->runs(), interval.low, interval.high);
+                                  spread.runs(), interval.low, interval.high);
     }
   }
   return result;
@@ -135,7 +140,8 @@ RunSpread spread_of(const std::vector<SeedReport>& reports, const DeploymentConf
                     std::vector<std::string> variation) {
   RunSpread all{.variation = std::move(variation), .figures = figures_of(reports), .failed = {}};
   for (Spread& spread : all.figures) {
-    const auto goal = std::ranges::find(config.goals, spread.figure, &Goal::metric);
+    const auto goal = std::ranges::find_if(
+        config.goals, [&](const Goal& one) { return is_of(spread.figure, one.metric); });
     if (goal != config.goals.end()) spread.goal = goal->limit;
     for (const auto& [seed, report] : reports) {
       const auto value = report->find(spread.figure);
@@ -161,7 +167,15 @@ RunSpread spread_of(const std::vector<SeedReport>& reports, const DeploymentConf
       ++known->second;
     }
   }
-  for (const SweepGoal& goal : config.sweep_goals) all.goals.push_back(judged(goal, all.figures));
+  for (const SweepGoal& goal : config.sweep_goals) {
+    const std::size_t before = all.goals.size();
+    for (const Spread& spread : all.figures) {
+      if (is_of(spread.figure, goal.metric)) all.goals.push_back(judged(goal, spread));
+    }
+    if (all.goals.size() == before) {
+      all.goals.push_back({.goal = goal, .value = std::nan(""), .fault = "no run measured it"});
+    }
+  }
   return all;
 }
 

@@ -45,7 +45,7 @@ struct Spread {
   std::size_t runs() const { return values.size() + unmeasured; }
 };
 
-/// A sweep goal held against the runs.
+/// A sweep goal held against the runs; of a metric that several components tell one of each.
 struct JudgedSweepGoal {
   SweepGoal goal;
   double value = 0;

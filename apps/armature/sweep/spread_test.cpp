@@ -100,6 +100,18 @@ TEST_F(SpreadTest, AFigureThatNoRunMeasuredIsNoGoalMet) {
   EXPECT_EQ(spread().goals[0].fault, "no run measured it");
 }
 
+TEST_F(SpreadTest, AGoalIsHeldAgainstEveryComponentThatTellsItsMetric) {
+  reports_.push_back({{"status", "goals_missed"}, {"left.error_mm", 12}, {"right.error_mm", 1}});
+  config_.goals = {{.metric = "error_mm", .limit = 10, .origin = {}}};
+  ask(Statistic::max, {}, 10);
+  const RunSpread told = spread();
+  ASSERT_EQ(told.goals.size(), 2U);
+  EXPECT_EQ(told.goals[0].goal.metric, "left.error_mm");
+  EXPECT_EQ(told.goals[0].fault, "at most 10");
+  EXPECT_EQ(told.goals[1].fault, "");
+  EXPECT_EQ(told.figures.at(1).met, 1U);
+}
+
 TEST_F(SpreadTest, ARunThatAFigureDoesNotApplyToIsNotCounted) {
   add_runs(3);
   const Json without{{"status", "ok"},

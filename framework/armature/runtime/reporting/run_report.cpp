@@ -23,8 +23,14 @@ RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
     if (deployment.is_hung(*runner)) continue;
     speaker_ = &deployment.config_of(*runner);
     deployment.tell_ending("summary", *runner);
+    const std::size_t told = figures_.size();
     runner->summarize(*this);
+    for (std::size_t i = told; i < figures_.size(); ++i) {
+      figures_[i].component = runner->name();
+      figures_[i].metric = figures_[i].key;
+    }
   }
+  tell_apart();
   unwell_ = deployment.unwell();
   judge(deployment, ending);
   timing_ = ending.timing;
@@ -73,23 +79,34 @@ void RunReport::failed(std::string status, std::string reason) {
   story_reason_ = std::move(reason);
 }
 
+void RunReport::tell_apart() {
+  for (Figure& figure : figures_) {
+    const bool is_told_twice = std::ranges::any_of(figures_, [&](const Figure& other) {
+      return other.metric == figure.metric && other.component != figure.component;
+    });
+    if (!is_told_twice) continue;
+    figure.key = figure.component + "." + figure.metric;
+    figure.title = figure.component + ": " + figure.title;
+  }
+}
+
 void RunReport::judge_goal(const Goal& goal) {
   bool found = false;
   for (Figure& figure : figures_) {
     const double* value = std::get_if<double>(&figure.value);
-    if (figure.key != goal.metric || !value) continue;
+    if (figure.metric != goal.metric || !value) continue;
     found = true;
     figure.goal = &goal;
     if (!figure.inapplicable.empty()) continue;
     figure.met = *value <= goal.limit;  // false for NaN
     if (figure.met) continue;
     if (!figure.unmeasured.empty()) {
-      reasons_.push_back(fmt::format("{} was not measured: {}", goal.metric, figure.unmeasured));
+      reasons_.push_back(fmt::format("{} was not measured: {}", figure.key, figure.unmeasured));
     } else if (!std::isfinite(*value)) {
-      reasons_.push_back(fmt::format("{} is not finite", goal.metric));
+      reasons_.push_back(fmt::format("{} is not finite", figure.key));
     } else {
       reasons_.push_back(
-          fmt::format("{} is {:.3f}, the goal is at most {:g}", goal.metric, *value, goal.limit));
+          fmt::format("{} is {:.3f}, the goal is at most {:g}", figure.key, *value, goal.limit));
     }
   }
   if (!found) reasons_.push_back(fmt::format("{} was never measured", goal.metric));

@@ -19,12 +19,13 @@ namespace armature ARMATURE_EXPORT {
 class RunReport final : public Summary {
  public:
   struct Figure {
-    std::string key, title;
+    std::string key, title;  // "left_camera.pictures" where several components tell the same
     std::variant<double, std::vector<double>, std::string> value;
     std::string unmeasured = {};    // why the value is none, or ""
     std::string inapplicable = {};  // the same, where there is nothing to be measured
     const Goal* goal = nullptr;     // of a metric that the deployment set a limit for
     bool met = true;
+    std::string component = {}, metric = {};  // of the key
   };
 
   /// What ended the run from outside of the deployment's components.
@@ -63,6 +64,7 @@ class RunReport final : public Summary {
 
  private:
   void expect_declared(const std::string& key);
+  void tell_apart();
   void judge_goal(const Goal& goal);
   void judge(const Deployment& deployment, const Ending& ending);
 

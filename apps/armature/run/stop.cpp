@@ -77,13 +77,18 @@ void tell_halted(const RunningProcess& one, int domain) {
              one.text(), domain, one.pid);
 }
 
-/// Says of the processes of this machine which are halted. False: none is.
+/// Says of the processes of this machine which are halted, or may be. False: none is.
 bool halted_told(int domain) {
   bool any = false;
   for (const RunningProcess& one : running_processes(domain)) {
-    if (!one.halted) continue;
-    tell_halted(one, domain);
-    any = true;
+    if (one.halted) tell_halted(one, domain);
+    if (one.pid == 0) {
+      fmt::print(stderr,
+                 "armature: {} runs on this machine in domain {}: it may be halted, and then it "
+                 "has not stopped. Use the arm's own emergency stop\n",
+                 one.text(), domain);
+    }
+    any = any || one.halted || one.pid == 0;
   }
   return any;
 }

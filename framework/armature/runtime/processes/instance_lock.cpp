@@ -41,6 +41,7 @@ int open_socket() { return socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NON
 struct Holder {
   pid_t pid;  // 0: not known
   std::string text;
+  bool is_here = true;  // else of another container
 };
 
 /// Who listens there, as the kernel saw it; nothing: nobody does.
@@ -53,7 +54,7 @@ std::optional<Holder> holder_of(const Address& address) {
     const bool known =
         getsockopt(own, SOL_SOCKET, SO_PEERCRED, &holder, &size) == 0 && holder.pid > 0;
     told = known ? Holder{holder.pid, fmt::format("pid {}", holder.pid)}
-                 : Holder{0, "a process of another container"};
+                 : Holder{0, "a process of another container", false};
   } else if (errno == EAGAIN) {
     told = Holder{0, "a process that thousands have asked for already"};
   }
@@ -102,7 +103,7 @@ std::vector<InstanceLock::Held> InstanceLock::held(const std::string& beginning)
   std::vector<Held> held;
   for (const std::string& name : names) {
     const auto holder = holder_of(Address{name});
-    if (holder && holder->pid > 0) held.push_back({name, holder->pid});
+    if (holder && holder->is_here) held.push_back({name, holder->pid});
   }
   return held;
 }

@@ -23,7 +23,7 @@ class InstanceLock {
 
   struct Held {
     std::string name;
-    pid_t holder;
+    pid_t holder;  // 0: thousands have asked for it already, and the kernel tells it no more
   };
   /// Locks of this machine whose names begin so, and who holds them. Names that are too long for an
   /// address (98 bytes) and holders of another container are left out.

@@ -55,5 +55,14 @@ TEST(InstanceLock, KeepsNamesApartHoweverLongTheyAre) {
   EXPECT_FALSE(InstanceLock::take(kName + same + "a"));
 }
 
+TEST(InstanceLock, IsSeenAlsoWhenItHasBeenAskedForTooOftenToTellItsHolder) {
+  const auto lock = InstanceLock::take(kName);
+  for (int asked = 0; asked < 5000; ++asked) ASSERT_FALSE(InstanceLock::check(kName));
+  const auto held = InstanceLock::held(kName);
+  ASSERT_EQ(held.size(), 1U);
+  EXPECT_EQ(held.front().name, kName);
+  EXPECT_EQ(held.front().holder, 0);
+}
+
 }  // namespace
 }  // namespace armature

@@ -38,7 +38,8 @@ std::string lock_of_process(std::string_view deployment, int domain, std::string
 std::string RunningProcess::text() const {
   const std::string of_process =
       process == kMainProcess ? "" : fmt::format("process '{}' of ", process);
-  return fmt::format("{}deployment '{}' (pid {})", of_process, deployment, pid);
+  return fmt::format("{}deployment '{}' ({})", of_process, deployment,
+                     pid > 0 ? fmt::format("pid {}", pid) : "asked for too often to tell its pid");
 }
 
 std::vector<RunningProcess> running_processes(int domain) {

@@ -15,7 +15,7 @@ std::string lock_of_process(std::string_view deployment, int domain, std::string
 /// A process of a deployment, on this machine.
 struct RunningProcess {
   std::string deployment, process;
-  pid_t pid;
+  pid_t pid;    // 0: not known
   bool halted;  // by a signal (SIGSTOP, Ctrl-Z) or a debugger: it does nothing until it goes on
 
   /// For humans: "process 'vision' of deployment 'dental_lamp' (pid 123)"; the main one is the

@@ -93,6 +93,18 @@ TEST(Graph, WhatIsOfOneRobotIsNotReadAsAnothers) {
   EXPECT_EQ(check(components), Messages{}) << "not of the reader's own robot";
 }
 
+TEST(Graph, ACommandIsReadFromACommandOnly) {
+  PortBinding command = port("goal", "/goal", false);
+  command.spec.qos = QosProfile::command;
+  std::vector components{writer("task", port("goal", "/goal", false)), reader("motion", command)};
+  EXPECT_EQ(check(components), Messages{"motion.goal reads QoS 'command' from topic '/goal', but "
+                                        "task.goal writes QoS 'state'"});
+  components[0].outputs[0].spec.qos = QosProfile::command;
+  EXPECT_EQ(check(components), Messages{});
+  components[1].inputs[0].spec.qos = QosProfile::state;
+  EXPECT_EQ(check(components), Messages{}) << "who only watches may be late";
+}
+
 TEST(Graph, AnOptionalInputNeedsAWriterOnlyWhenTheFileSaysWhich) {
   PortBinding input = port("in", "/nowhere", false);
   input.spec.optional = true;

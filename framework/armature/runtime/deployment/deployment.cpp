@@ -189,9 +189,8 @@ void Deployment::make_own_units(PluginRegistry& plugins) {
   }
   const int last = static_cast<int>(config_.components.size());
   make_own_unit(kStateComponent, StatePublisher::manifest(), last, plugins, [this](Setup& setup) {
-    return std::make_unique<StatePublisher>(
-        setup, options_.process, runners_, config_.measuring(),
-        [this] { return description_of(config_, options_.process, run_); });
+    return std::make_unique<StatePublisher>(setup, options_.process, runners_, config_.measuring(),
+                                            description_);
   });
   make_own_unit(kLogComponent, LogPublisher::manifest(), last + 1, plugins, [this](Setup& setup) {
     return std::make_unique<LogPublisher>(setup, config_.name, log_);
@@ -308,7 +307,7 @@ void Deployment::record(const std::filesystem::path& file,
                                .topics = config_.record->topics,
                                .compress = config_.record->compress,
                                .thin = config_.record->thin,
-                               .description = description_of(config_, options_.process, run_),
+                               .description = description_,
                                .on_problem = options_.on_note,
                                .on_file = tell_file};
   recorder_ = std::make_unique<RunRecorder>(std::move(options), config_, runners_, *clock_);
@@ -333,7 +332,7 @@ std::optional<Time> Deployment::next_trouble() {
 }
 
 void Deployment::connect(PluginRegistry& plugins, int domain, const std::string& run) {
-  run_ = run;
+  description_ = description_of(config_, options_.process, run);
   NetworkOptions network = config_.dds.network(domain);
   // A process that the others go on without must leave nothing behind that they wait for.
   const bool isolated = options_.process != kMainProcess && !stops_run(options_.process, config_);

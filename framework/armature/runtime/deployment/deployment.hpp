@@ -173,7 +173,7 @@ class Deployment {
 
   DeploymentConfig config_;
   Options options_;
-  std::string run_;
+  msg::DeploymentDescription description_;  // of this process, before its first step
   std::unique_ptr<Clock> clock_;
   LogQueue log_;
   StatusReporter::Sink sink_;                             // of components

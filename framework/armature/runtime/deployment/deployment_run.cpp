@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "armature/runtime/deployment/deployment.hpp"
+#include "armature/runtime/deployment/description.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 
@@ -21,6 +22,8 @@ std::string status_text(const ComponentRunner& runner) {
 }  // namespace
 
 void Deployment::run(RunWatch& watch) {
+  if (description_.deployment_().empty())
+    description_ = description_of(config_, options_.process, "");
   if (await_start(watch)) {
     const std::string cause = run_until_stop(watch);
     unwell_ = find_unwell();

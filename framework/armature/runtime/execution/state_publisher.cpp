@@ -66,12 +66,13 @@ const PluginManifest& StatePublisher::manifest() {
 
 StatePublisher::StatePublisher(Setup& setup, std::string process,
                                const std::vector<std::unique_ptr<ComponentRunner>>& runners,
-                               std::vector<std::string> measuring, Describe describe)
+                               std::vector<std::string> measuring,
+                               const msg::DeploymentDescription& description)
     : Component{setup},
       process_{std::move(process)},
       runners_{runners},
       measuring_{std::move(measuring)},
-      describe_{std::move(describe)},
+      to_describe_{&description},
       states_{setup.output<msg::ComponentStates>("states")},
       description_{setup.output<msg::DeploymentDescription>("description")},
       diagnostics_{setup.output<msg::DiagnosticArray>("diagnostics")} {
@@ -206,14 +207,13 @@ msg::DiagnosticStatus StatePublisher::diagnostic_of(const CountedExecutor& execu
 }
 
 void StatePublisher::publish_description(Time now) {
-  auto description = describe_();
-  describe_ = nullptr;
+  auto description = *std::exchange(to_describe_, nullptr);
   set_stamp(description.header_().stamp_(), now);
   description_.publish(description);
 }
 
 void StatePublisher::step(Time now) {
-  if (describe_) publish_description(now);
+  if (to_describe_) publish_description(now);
   auto array = diagnostics_.loan();
   set_stamp(array->header_().stamp_(), now);
   array->header_().frame_id_().clear();

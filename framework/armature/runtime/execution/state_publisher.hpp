@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -24,14 +23,12 @@ namespace armature ARMATURE_EXPORT {
 /// an executor of its own: nobody else's step can silence it.
 class StatePublisher final : public Component {
  public:
-  /// Makes the description of this process, in the first step.
-  using Describe = std::function<msg::DeploymentDescription()>;
-
   /// `runners` outlives it and holds the components of `process`; `measuring` are the names of
-  /// those whose measurements they answer to (ComponentRunner::reactions).
+  /// those whose measurements they answer to (ComponentRunner::reactions). `description` outlives
+  /// it and is read in the first step.
   StatePublisher(Setup& setup, std::string process,
                  const std::vector<std::unique_ptr<ComponentRunner>>& runners,
-                 std::vector<std::string> measuring, Describe describe);
+                 std::vector<std::string> measuring, const msg::DeploymentDescription& description);
 
   static const PluginManifest& manifest();
   void step(Time now) override;
@@ -70,8 +67,8 @@ class StatePublisher final : public Component {
   std::string process_;
   const std::vector<std::unique_ptr<ComponentRunner>>& runners_;
   std::vector<std::string> measuring_;
-  Describe describe_;             // until it has described
-  std::vector<Counted> counted_;  // of runners_
+  const msg::DeploymentDescription* to_describe_;  // null: it has described
+  std::vector<Counted> counted_;                   // of runners_
   std::map<const CycleTimes*, CountedExecutor> executors_;
   Output<msg::ComponentStates> states_;
   Output<msg::DeploymentDescription> description_;

@@ -54,6 +54,7 @@ class StatePublisherTest : public testing::Test {
     setup_.topic("states").connect(states_);
     setup_.topic("diagnostics").connect(diagnostics_);
     setup_.topic("description").connect(descriptions_);
+    description_.deployment_("lamp");
     publisher_.step(Time{} + seconds(1.5));
   }
 
@@ -65,11 +66,8 @@ class StatePublisherTest : public testing::Test {
                          lines_.emplace_back(line);
                        }};
   FakeSetup setup_{own_};
-  StatePublisher publisher_{setup_, "main", runners_, {"camera"}, [] {
-                              msg::DeploymentDescription description;
-                              description.deployment_("lamp");
-                              return description;
-                            }};
+  msg::DeploymentDescription description_;
+  StatePublisher publisher_{setup_, "main", runners_, {"camera"}, description_};
   StateCollector states_;
   Collector<msg::DiagnosticArray> diagnostics_;
   Collector<msg::DeploymentDescription> descriptions_;

@@ -206,6 +206,14 @@ TEST_F(Hosts, WhoseAgentIsKilledStopTheRun) {
   EXPECT_TRUE(ends_within(aside, kTimeout));
 }
 
+TEST_F(Hosts, AreToldOfAnotherMachineThatAnswersUnderTheSameName) {
+  const auto main = start_main(pulse("1000")), desk = start_desk(pulse("1000"));
+  expect_started(*main, *desk);
+  const auto other = start(robot_, kPulse, pulse("1000"), {"--host", "desk"});
+  EXPECT_TRUE(main->wait_for_err("another program answers as host 'desk', too", kTimeout))
+      << main->err();
+}
+
 TEST_F(Hosts, ThatAreUnknownOrTakenAreRefused) {
   const auto unknown = start(desk_, kPulse, pulse("1"), {"--host", "desc"})->finish(kTimeout);
   EXPECT_EQ(unknown.exit_code, 3);

@@ -45,6 +45,8 @@ class HostLink {
   /// The id of the other end; "" before they have met.
   const std::string& other() const { return lines_.other(); }
   bool lost() const;
+  /// Whether another agent answers as this host, too.
+  bool is_doubled() const { return lines_.is_asked_by_third(); }
   /// Forgets the other end, and waits for another one.
   void turn_away();
 

@@ -77,6 +77,7 @@ bool LineExchange::take(std::string_view message, Time now) {
   if (!taken || !first || from.empty() || (to != own_ && to != kAnybody)) return false;
   if (turned_away_.contains(from)) return false;
   if (other_.empty()) other_ = from;
+  is_asked_by_third_ = is_asked_by_third_ || (from != other_ && to == kAnybody);
   if (from != other_ || *taken > acknowledged_ + unacknowledged_.size()) return false;
   heard_ = std::max(heard_, now);
   for (; acknowledged_ < *taken; ++acknowledged_) unacknowledged_.pop_front();

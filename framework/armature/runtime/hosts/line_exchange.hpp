@@ -40,6 +40,8 @@ class LineExchange {
   /// Takes a message that came at `now`. False, and nothing of it is taken, when it is for another
   /// end or from one, or no message of an exchange.
   bool take(std::string_view message, Time now);
+  /// Whether a third one asks for anybody, whom it does not hear.
+  bool is_asked_by_third() const { return is_asked_by_third_; }
   /// When the last message of the other end came.
   Time heard() const { return heard_; }
 
@@ -48,6 +50,7 @@ class LineExchange {
   std::deque<std::string> unacknowledged_, received_;
   std::uint64_t acknowledged_ = 0;  // of our lines
   std::uint64_t taken_ = 0;         // of the other's lines
+  bool is_asked_by_third_ = false;
   Time heard_;
   std::set<std::string, std::less<>> turned_away_;
 };

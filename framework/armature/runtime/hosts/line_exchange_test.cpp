@@ -36,7 +36,9 @@ TEST(LineExchange, TakesNothingOfAThird) {
   main.take(desk.message(), Time{1});
   desk.take(main.message(), Time{1});
   third.send("stop");
+  EXPECT_FALSE(main.is_asked_by_third());
   EXPECT_FALSE(main.take(third.message(), Time{2})) << "it asks for anybody";
+  EXPECT_TRUE(main.is_asked_by_third());
   EXPECT_FALSE(main.take("main third 0 1\nstop", Time{2}));
   EXPECT_FALSE(main.take("else desk 0 1\nstop", Time{2}));
   EXPECT_FALSE(main.receive());

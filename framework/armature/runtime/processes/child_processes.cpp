@@ -77,7 +77,14 @@ void ChildProcesses::welcome(Child& agent, const std::string& fingerprint) {
 }
 
 void ChildProcesses::update() {
-  for (const auto& host : hosts_) host->update();
+  for (const auto& host : hosts_) {
+    host->update();
+    if (host->is_doubled() && doubled_.insert(host->host()).second) {
+      notes_.push_back(
+          fmt::format("another program answers as host '{}', too; it waits until this run is over",
+                      host->host()));
+    }
+  }
   for (Child& child : children_) {
     hear(child);
     watch(child);

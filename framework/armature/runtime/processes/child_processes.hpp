@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -122,6 +123,7 @@ class ChildProcesses {
   std::deque<Child> children_;  // those of a host go before it
   bool begun_ = false, scenario_over_ = false;
   std::deque<std::string> notes_;  // not told yet
+  std::set<std::string> doubled_;  // hosts, as which several answer; told
   std::deque<Time> troubles_;      // the same
   std::vector<std::string> faults_;
 };

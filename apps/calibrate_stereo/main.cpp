@@ -47,7 +47,11 @@ RowErrors row_errors(const stereo::StereoCalibration& calibration,
     for (std::size_t i = 0; i < view.left.size(); ++i) {
       const auto left = calibration.left.ray_of(view.left[i], left_max);
       const auto right = calibration.right.ray_of(view.right[i], right_max);
-      if (!left || !right) continue;
+      if (!left || !right) {
+        throw std::runtime_error(
+            "nothing is written: a lens that fits the corners does not reach all of them; hold "
+            "the board into the rims, too, or take k3 as well (--k3)");
+      }
       const double off = made.camera.focal_px *
                          ((made.rectified_R_left * left->homogeneous()).hnormalized().y() -
                           (made.rectified_R_right * right->homogeneous()).hnormalized().y());

@@ -393,7 +393,7 @@ TEST_P(AnyOperator, WhoSaysTheSameGivesTheSameRun) {
   const int seed = 3;
   const OperatedRun once = run_with(GetParam(), seed), again = run_with(GetParam(), seed);
   SCOPED_TRACE("seed " + std::to_string(seed) + "\n" + once.chronicle.story());
-  EXPECT_GT(once.chronicle.words.size(), 5U);
+  EXPECT_GT(once.chronicle.words.size(), 3U);
   EXPECT_TRUE(once.chronicle.text == again.chronicle.text);
 }
 

@@ -252,7 +252,7 @@ TEST_F(Recorded, ANameThatNobodyWritesIsTold) {
   const CommandResult result =
       run_command(record({kJoints, "/watched/arm/mesured_js", "--timeout", "4"}), {}, kEnough);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "armature: nobody wrote '/watched/arm/mesured_js'\n");
+  EXPECT_THAT(result.err, HasSubstr("armature: nobody wrote '/watched/arm/mesured_js'\n"));
   const CommandResult pattern = run_command(record({"*joint*"}));
   EXPECT_EQ(pattern.exit_code, 2);
   EXPECT_THAT(pattern.err, HasSubstr("has a '*' that is not at its end"));

@@ -20,6 +20,8 @@ bool RegistrationDialogue::due(Time now) const {
 
 void RegistrationDialogue::ask(const Question& question, Time now) {
   requested_at_ = now;
+  if (question != last_) forget();
+  last_ = question;
   // A number that nobody else's question on this topic has, as far as one can tell.
   const auto id = static_cast<std::uint64_t>(now.ns);
   asked_.add(id);

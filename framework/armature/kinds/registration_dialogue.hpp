@@ -41,6 +41,8 @@ class RegistrationDialogue {
     std::string robot_frame;  // of robot_markers
     std::vector<msg::Point> image_markers, robot_markers, targets;
     double marker_error = 0;  // [m] that was told with the markers; 0: none, the parameter counts
+
+    bool operator==(const Question&) const = default;
   };
 
   /// `marker_error` [m]: how well a marker is measured. `match_tolerance` [m]: how far two
@@ -54,7 +56,8 @@ class RegistrationDialogue {
   void ask(const Question& question, Time now);
   /// No answer to what was asked counts any more: what it asked of has changed.
   void forget() { asked_ = {}; }
-  /// Calls `hear` with every answer to the last questions; those to somebody else's are none.
+  /// Calls `hear` with every answer to the question that was asked last, which may have been asked
+  /// more than once; those to somebody else's are none.
   template <class Hear>
   void listen(const Hear& hear) const {
     for (std::size_t i = 0; i < answers_.size(); ++i) {
@@ -64,7 +67,8 @@ class RegistrationDialogue {
 
  private:
   double marker_error_, match_tolerance_;
-  LastQuestions asked_;
+  Question last_;
+  LastQuestions asked_;  // that, some times
   Time requested_at_;
   Output<msg::RegistrationRequest> requests_;
   Input<msg::RegistrationResponse> answers_;

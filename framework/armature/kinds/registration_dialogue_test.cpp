@@ -29,6 +29,8 @@ in:
   registration: {type: armature_msgs/RegistrationResponse, reads: queue(16), doc: "Answers"}
 )";
 
+constexpr double kOthersFrom_s = 20;  // it asks about other targets
+
 class Asks final : public Component {
  public:
   explicit Asks(Setup& setup)
@@ -36,7 +38,9 @@ class Asks final : public Component {
         dialogue_{setup.output<msg::RegistrationRequest>("request"),
                   setup.input<msg::RegistrationResponse>("registration"), 0.0005, 0.003} {}
   void step(Time now) override {
-    if (dialogue_.due(now)) dialogue_.ask({.robot_frame = "jaw", .targets = {{}, {}}}, now);
+    const bool others = now >= Time{} + seconds(kOthersFrom_s);
+    const std::vector<msg::Point> targets(others ? 3 : 2);
+    if (dialogue_.due(now)) dialogue_.ask({.robot_frame = "jaw", .targets = targets}, now);
     dialogue_.listen([&](const msg::RegistrationResponse& answer) {
       log(answer.valid_() ? "registered" : answer.reason_());
     });
@@ -116,6 +120,17 @@ TEST_F(RegistrationDialogueTest, HearsOnlyTheAnswersToItsLastThreeQuestions) {
   task_.send("registration", answer(last));
   task_.step(13.3);
   EXPECT_EQ(task_.lines(), (std::vector<std::string>{"too few", "registered"}));
+}
+
+TEST_F(RegistrationDialogueTest, HearsNoAnswerAboutOtherMarkersThanItAskedForLast) {
+  const std::uint64_t old = asked_at(kOthersFrom_s - 1)[0].request_id_();
+  const std::uint64_t newer = asked_at(kOthersFrom_s)[0].request_id_();
+  task_.send("registration", answer(old, false));
+  task_.step(kOthersFrom_s + 0.1);
+  EXPECT_TRUE(task_.lines().empty());
+  task_.send("registration", answer(newer));
+  task_.step(kOthersFrom_s + 0.2);
+  EXPECT_EQ(task_.lines(), std::vector<std::string>{"registered"});
 }
 
 TEST_F(RegistrationDialogueTest, WhoWatchesHearsWhatTheTaskWasTold) {

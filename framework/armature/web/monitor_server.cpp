@@ -83,7 +83,7 @@ std::string monitor_links(const MonitorAddress& address, int port) {
     std::string links;
     MonitorAddress one = address;
     for (const NetworkInterface& interface : network_interfaces()) {
-      if (!interface.up) continue;
+      if (!interface.up || !interface.has_link) continue;
       for (const std::string& own : interface.addresses) {
         one.address = own;
         links = monitor_links(one, port) + (links.empty() ? "" : '\n' + links);

@@ -3,6 +3,7 @@
 
 #include <fstream>
 #include <optional>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -100,8 +101,10 @@ class WebBridgeComponent : public Component {
     // The log is on a topic, and the token is not for all who read that.
     MonitorAddress told = address_;
     if (!told.token.empty()) told.token = "...";
-    const std::string links = monitor_links(told, bridge_->port());
-    tell(links.substr(0, links.find('\n')));
+    std::istringstream links{monitor_links(told, bridge_->port())};
+    for (std::string link; std::getline(links, link);) {
+      if (link.starts_with("http")) tell(link);
+    }
     for (const std::string& problem : describe_messages(*plugins_)) tell(problem);
     bridge_->run([this] { return lines_->stopping(); });
   }

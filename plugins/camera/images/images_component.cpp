@@ -80,7 +80,7 @@ class Images final : public Component {
   std::unique_ptr<pictures::PictureSource> source_;
   Ports ports_;
   std::optional<pictures::TimedPicture> next_;
-  bool begun_ = false, exhausted_ = false, finished_ = false;
+  bool told_left_out_ = false, begun_ = false, exhausted_ = false, finished_ = false;
   Time first_;         // when the first picture came, by the clock of the source
   Duration shift_{0};  // from the source's clock to the deployment's
   Time end_;           // when the last picture is over, by the deployment's clock
@@ -127,7 +127,7 @@ void Images::fetch() {
 
 void Images::step(Time now) {
   if (finished_) return;
-  if (!begun_) {
+  if (!std::exchange(told_left_out_, true)) {
     skipped_ += source_->left_out();
     if (const std::string remark = source_->remark(); !remark.empty()) log("left out: " + remark);
   }

@@ -153,6 +153,19 @@ TEST_F(ImagesTest, AStepDoesNotReadAllPicturesThatCannotBeUsed) {
   EXPECT_EQ(images.lines().back(), "2 pictures were played");
 }
 
+TEST_F(ImagesTest, APictureWithoutAPartnerCountsOnceHoweverLongTheFirstThatCanBeUsedTakes) {
+  for (int i = 0; i < 20; ++i) {
+    files_.write_text("left/" + std::to_string(i) + ".png", "no PNG");
+    files_.write_text("right/" + std::to_string(i) + ".png", "no PNG");
+  }
+  files_.write("left/20.png", 1);
+  files_.write("right/20.png", 1);
+  files_.write("left/alone.png", 1);
+  ComponentHarness images{built_plugins(), options(", bad_pictures: skip")};
+  left(images, 0, 1);
+  EXPECT_EQ(images.figures().metrics.at("pictures_skipped"), 41);
+}
+
 TEST_F(ImagesTest, ARunWithoutAnyUsablePictureIsRefused) {
   files_.write_text("left/0.png", "no PNG");
   files_.write_text("right/0.png", "no PNG");

@@ -100,7 +100,7 @@ class TeleoperationReport final : public Component {
       metric("tracking_worst_mm", "the largest [mm]", following->worst_m, 1e3);
       tell_lag(summary, following->lag_s);
     }
-    if (closed_at_) tell_tremor(summary);
+    if (has_closed_) tell_tremor(summary);
     metric("tip_speed_mm_s", "top speed of the follower's tip [mm/s]", follow_.top_speed_m_s(),
            1e3);
     metric("stopping_mm", "stops after the clutch opens within [mm]", follow_.stopping_m(), 1e3);
@@ -170,6 +170,7 @@ class TeleoperationReport final : public Component {
     if (phase == "aligned" && !aligned_at_) aligned_at_ = at;
     if (!first_aligned_at_) first_aligned_at_ = aligned_at_;
     if (closed && !closed_at_) closed_at_ = at;
+    has_closed_ = has_closed_ || closed;
     trouble_ = state.detail_();
     if (trouble_.empty()) held_since_.reset();
     if (!trouble_.empty() && !held_since_) held_since_ = at;
@@ -235,6 +236,7 @@ class TeleoperationReport final : public Component {
   std::optional<PoseResidual> alignment_error_, earlier_alignment_;  // the worst before `back`
   std::optional<Eigen::Isometry3d> follower_T_leader_;
   std::optional<Time> start_, first_aligned_at_, aligned_at_, closed_at_, held_since_;
+  bool has_closed_ = false;  // the hand, the clutch, at any time
   std::string complaint_, trouble_;
   bool refused_ = false, aborted_ = false, held_ = false, finished_ = false;
   Ports ports_;

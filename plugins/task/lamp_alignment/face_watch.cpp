@@ -21,7 +21,7 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& vector, double most) {
 
 void FaceWatch::see(const Picture& picture, Time now) {
   face_ = picture.face;
-  if (picture.face) face_at_ = picture.stamp;
+  if (picture.face && !is_no_patient_) face_at_ = picture.stamp;
   if (is_longer_than_lost(picture_at_, picture.stamp)) begins_at_ = picture.stamp;
   period_ = picture.stamp - picture_at_;
   picture_at_ = picture.stamp;
@@ -41,14 +41,20 @@ void FaceWatch::see(const Verdict& verdict) {
 }
 
 bool FaceWatch::see(const FaceEstimate& estimate) {
-  if (std::exchange(measurements_, estimate.measurements) == estimate.measurements) return false;
+  const int before = std::exchange(measurements_, estimate.measurements);
+  if (before == estimate.measurements) return false;
+  if (estimate.measurements < before) {
+    begins_anew_ = latest_.has_value();
+    is_no_patient_ = false;
+  }
   if (estimate.measurements < parameters_.min_measurements) {
     see_no_estimate(fmt::format("it was measured {} times, {} times are wanted",
                                 estimate.measurements, parameters_.min_measurements));
     return false;
   }
   const Eigen::Vector3d& at = estimate.mouth;
-  if (!is_where_patients_are(at)) {
+  is_no_patient_ = !is_where_patients_are(at);
+  if (is_no_patient_) {
     see_no_estimate(fmt::format("a face at ({:.1f}, {:.1f}, {:.1f}) m is not where patients are",
                                 at.x(), at.y(), at.z()));
     return false;
@@ -57,7 +63,7 @@ bool FaceWatch::see(const FaceEstimate& estimate) {
                      estimate.normal_rate.norm() > parameters_.moving_turn;
   moving_ = moves ? moving_ + 1 : 0;
   still_ = moves ? 0 : still_ + 1;
-  is_found_anew_ = is_found_anew_ || (latest_ && estimate.measurements <= latest_->measurements);
+  is_found_anew_ = std::exchange(begins_anew_, false) || is_found_anew_;
   latest_ = estimate;
   latest_->velocity = shortened(estimate.velocity, parameters_.max_speed);
   latest_->normal_rate = shortened(estimate.normal_rate, parameters_.max_turn);

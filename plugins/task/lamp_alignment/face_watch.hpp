@@ -81,12 +81,14 @@ class FaceWatch {
 
   Parameters parameters_;
   std::optional<FaceEstimate> latest_;
-  int measurements_ = 0;  // of the newest estimate, confirmed or not
+  int measurements_ = 0;      // of the newest estimate, confirmed or not
+  bool begins_anew_ = false;  // the face that is measured, since `latest_`; not confirmed yet
   bool is_found_anew_ = false;
+  bool is_no_patient_ = false;  // the face that is measured, by where it is
   int moving_ = 0, still_ = 0;  // estimates in a row that say so
   Time picture_at_, picture_came_;
   Duration period_{};  // between the newest two pictures
-  Time face_at_;       // the newest picture with a face, believed or not
+  Time face_at_;       // the newest picture with a face, believed or not, that may be a patient's
   Time begins_at_;     // the wait for one; pictures that cannot be used put it off
   bool face_ = false;  // in the newest picture
   struct Unusable {

@@ -120,6 +120,23 @@ TEST_F(FaceWatchTest, PicturesThatCannotBeUsedCountForNoTimeInWhichAFaceIsMissed
   EXPECT_FALSE(watch_.lost(begin_));
 }
 
+TEST_F(FaceWatchTest, AFaceThatComesFromWhereNoPatientsAreIsAnotherOne) {
+  Parameters parameters;
+  parameters.min_patient = {0, -1, 0};
+  watch_ = FaceWatch{parameters};
+  const auto measure_at = [&](double x, int measurements) {
+    see(0.1, true);
+    return watch_.see(
+        FaceEstimate{.stamp = now_, .mouth = {x, 0, 0.5}, .measurements = measurements});
+  };
+  for (int k = 1; k <= 10; ++k) measure_at(1, k);
+  EXPECT_FALSE(watch_.is_found_anew());
+  for (int k = 1; k <= 20; ++k) EXPECT_FALSE(measure_at(-1, k));
+  EXPECT_FALSE(watch_.is_found_anew()) << "nothing of that is believed";
+  EXPECT_TRUE(measure_at(0.5, 21));
+  EXPECT_TRUE(watch_.is_found_anew());
+}
+
 TEST_F(FaceWatchTest, BehindAnOutageNoFaceIsSeenBeforeAPictureShowsOne) {
   see(5, true);
   measure(3);

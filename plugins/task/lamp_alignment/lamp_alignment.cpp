@@ -144,12 +144,12 @@ std::optional<MotionGoal> LampAlignment::outgoing_goal(Time now) {
   return goals_.outgoing(now);
 }
 
-bool LampAlignment::may_align() {
+bool LampAlignment::may_align(Time now) {
   if (step() != Step::alignment) {
     procedure_.enter(static_cast<std::size_t>(Step::alignment));
     asked_about_ = latest();
-  } else if (is_elsewhere(*asked_about_)) {
-    ask_whose_face(*asked_about_);
+  } else if (!procedure_.auto_confirm() && is_elsewhere(*asked_about_)) {
+    ask_whose_face(*asked_about_, now);
   }
   return procedure_.may_act();
 }
@@ -158,19 +158,24 @@ bool LampAlignment::is_elsewhere(const FaceEstimate& before) const {
   return (latest().mouth - before.mouth).norm() > kAlong.position_m;
 }
 
-void LampAlignment::ask_whose_face(const FaceEstimate& before) {
+void LampAlignment::ask_whose_face(const FaceEstimate& before, Time now) {
   trouble_ = fmt::format("the face is {:.0f} mm from where it was: is it the patient's?",
                          1e3 * (latest().mouth - before.mouth).norm());
   procedure_.enter(static_cast<std::size_t>(Step::alignment));
   asked_about_ = latest();
+  asked_whose_at_ = now;
 }
 
 bool LampAlignment::leaves_face_found_elsewhere(Time now) {
   if (!is_at_a_face() || !face_.is_found_anew() || !is_fresh(now)) return false;
   face_.know_it();
   if (!is_elsewhere(*goal_estimate_)) return false;
+  if (procedure_.auto_confirm()) {
+    align_with(latest(), Phase::aligning, now);
+    return true;
+  }
   goals_.leave();
-  ask_whose_face(*goal_estimate_);
+  ask_whose_face(*goal_estimate_, now);
   phase_ = Phase::searching;
   looking_ = capture_ = true;
   looking_since_ = latest().stamp;
@@ -180,11 +185,12 @@ bool LampAlignment::leaves_face_found_elsewhere(Time now) {
 bool LampAlignment::aligns_with_seen_face(Step before, Time now) {
   if (!face_.seen_since(looking_since_)) return false;
   if (is_fresh(now)) {
-    if (may_align()) align_with(latest(), Phase::aligning, now);
+    if (may_align(now)) align_with(latest(), Phase::aligning, now);
     return true;
   }
   if (step() == Step::alignment) {
     procedure_.enter(static_cast<std::size_t>(before));
+    trouble_.clear();
     sets_out_ = phase_ == Phase::no_view;
   }
   looking_since_ = now;

@@ -68,10 +68,10 @@ class LampAlignment {
   bool is_at_a_face() const { return phase_ >= Phase::aligning && phase_ <= Phase::unreachable; }
   /// Whether the arm may set out to align with a face that is seen; asks the operator if need be,
   /// and anew where that face is elsewhere by then.
-  bool may_align();
+  bool may_align(Time now);
   /// So far from `before` it may be another one.
   bool is_elsewhere(const FaceEstimate& before) const;
-  void ask_whose_face(const FaceEstimate& before);
+  void ask_whose_face(const FaceEstimate& before, Time now);
   /// The face that it is about was found anew, elsewhere: it stops, and asks.
   bool leaves_face_found_elsewhere(Time now);
   /// A face has been seen since it looks, and is not lost again: it aligns with that one, or asks.
@@ -121,6 +121,7 @@ class LampAlignment {
   FaceAverage at_rest_;  // estimates since the arm came to rest
   std::optional<FaceEstimate> goal_estimate_;
   std::optional<FaceEstimate> asked_about_;  // by the alignment's question
+  std::optional<Time> asked_whose_at_;       // when that came to be about another face
   FaceAverage recent_;       // estimates since the goal was set, the newest moved_frames
   bool goes_along_ = false;  // with the patient, in tracking mode
   Phase phase_ = Phase::checking_light;

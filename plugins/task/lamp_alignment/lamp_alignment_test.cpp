@@ -391,6 +391,17 @@ TEST_F(LampAlignmentTest, GoesToNoFaceThatIsNotWherePatientsAreAndSearchesOn) {
   EXPECT_TRUE(run_until(Phase::holding, 30));
 }
 
+TEST_F(LampAlignmentTest, SearchesForAPatientWhoHasGoneThoughAFaceElsewhereStaysInTheView) {
+  task_ = LampAlignment{
+      Parameters{
+          .min_patient = {0.9, -0.6, -0.1}, .max_patient = {1.9, 0.6, 1.1}, .auto_confirm = true},
+      0.08};
+  ASSERT_TRUE(run_until(Phase::holding, 15));
+  mouth_ = {2.32, 0.02, 0.42};
+  measurements_ = 0;
+  EXPECT_TRUE(run_until(Phase::searching, 6));
+}
+
 TEST_F(LampAlignmentTest, TellsAtTheEndOfARoundWhyNoViewGaveAFaceEachReasonOnce) {
   present_ = false;
   std::vector<std::string> told;

@@ -260,6 +260,35 @@ TEST_F(OperatedLampTest, AFaceThatIsFoundAnewElsewhereIsNotGoneToBeforeItIsConfi
   EXPECT_EQ(task_.trouble(), "");
 }
 
+TEST_F(OperatedLampTest, AbortedWhenItAsksWhoseFaceItIsItGoesBackToTheView) {
+  noise_m_ = 0;
+  confirm("search");
+  run(20);
+  const ToolPose view = lamp_;
+  confirm("alignment");
+  ASSERT_TRUE(run_until(Phase::holding, 20));
+  mouth_.y() += 0.3;
+  measurements_ = 0;
+  run(1);
+  ASSERT_EQ(asked(), "alignment");
+  EXPECT_EQ(say("abort"), "");
+  EXPECT_TRUE(run_until(Phase::aborted, 5));
+  EXPECT_EQ(lamp_.position, view.position);
+}
+
+TEST_F(OperatedLampTest, AWordOnItsWayConfirmsNoFaceThatHasJustComeIntoTheQuestion) {
+  noise_m_ = 0;
+  confirm("search");
+  run(20);
+  ASSERT_EQ(asked(), "alignment");
+  mouth_.y() += 0.3;
+  while (task_.trouble().empty()) tick();
+  EXPECT_EQ(say("confirm", "alignment"),
+            "another face has just come into the question: look, and say it again");
+  run(0.6);
+  EXPECT_EQ(say("confirm", "alignment"), "");
+}
+
 TEST_F(OperatedLampTest, OnTheWayItStopsForAFaceThatIsFoundAnewElsewhere) {
   confirm("search");
   run(20);
@@ -273,6 +302,7 @@ TEST_F(OperatedLampTest, OnTheWayItStopsForAFaceThatIsFoundAnewElsewhere) {
   present_ = false;
   run(5);
   EXPECT_EQ(asked(), "search") << "that one has gone, too";
+  EXPECT_EQ(task_.trouble(), "");
   EXPECT_EQ(goals_.back().mode, MotionMode::pause);
   present_ = true;
   confirm("search");

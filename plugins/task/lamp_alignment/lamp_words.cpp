@@ -8,6 +8,10 @@
 namespace armature::task::lamp_alignment {
 
 Expected<void> LampAlignment::hear(const OperatorCommand& command, Time now) {
+  constexpr Duration kReading = seconds(0.5);
+  if (command.word == "confirm" && asked_whose_at_ && now - *asked_whose_at_ < kReading) {
+    return refuse("another face has just come into the question: look, and say it again");
+  }
   if (const auto may = may_resume(now); command.word == "resume" && !may) return may;
   return obey(
       command, procedure_, goals_, [&] { return go_back(now); }, [&] { return abort(); });
@@ -44,7 +48,7 @@ Expected<void> LampAlignment::abort() {
   procedure_.turn_back();
   MotionGoal goal{.mode = MotionMode::hold, .pose = {}};
   if (came_from_a_view) goal = {.pose = poses_[pose_]};
-  if (goals_.state() != GoalState::none) goals_.set(goal);
+  if (came_from_a_view || goals_.state() != GoalState::none) goals_.set(goal);
   phase_ = Phase::aborting;
   trouble_.clear();
   capture_ = false;

@@ -110,7 +110,7 @@ void check_whole(const RobotModel& model, MapReader& map) {
                       "that follow it exclude each other",
                       model.joints()[static_cast<std::size_t>(model.independent_joint(i))].name));
   if (!model.home()) return;
-  constexpr double kRounding = 1e-9;  // of a limit that a coupled joint sets
+  constexpr double kLastBits = 1e-9;  // of a limit that a coupled joint sets
   const std::string home = map.written("home_deg");
   const auto independent = model.to_independent(*model.home());
   if (!independent) {
@@ -119,7 +119,7 @@ void check_whole(const RobotModel& model, MapReader& map) {
   }
   for (int i = 0; i < model.dof(); ++i) {
     const double q = (*independent)[i];
-    if (q >= model.lower()[i] - kRounding && q <= model.upper()[i] + kRounding) continue;
+    if (q >= model.lower()[i] - kLastBits && q <= model.upper()[i] + kLastBits) continue;
     const auto& joint = model.joints()[static_cast<std::size_t>(model.independent_joint(i))];
     map.problem("home_deg", outside(map, joint, q, model.lower()[i], model.upper()[i]));
   }

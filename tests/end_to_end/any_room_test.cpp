@@ -24,7 +24,7 @@ int number(const char* variable, int without) {
   return told ? std::atoi(told) : without;
 }
 
-/// What the scene is told, each of it in some of the rooms only.
+/// Settings of the scene, each of them in some of the rooms only.
 class AnyRoom {
  public:
   explicit AnyRoom(int seed) : chance_(seed) {

@@ -58,7 +58,7 @@ Chronicle::Task task_of(std::istream& line, double time_s) {
   return task;
 }
 
-/// What a line of that kind tells of a stop; empty: nothing.
+/// The word that a line of that kind has for a stop; empty: it tells of none.
 std::string mishap_of(const std::string& kind, std::istream& line) {
   if (kind == "over" || kind == "rearmed") return kind;
   std::string what;

@@ -88,7 +88,7 @@ Candidates plugin_ids(const std::string& typed) {
   return all;
 }
 
-/// Of a new plugin, whose name is free.
+/// Families that a new plugin may be of; its name is free.
 Candidates plugin_families() {
   Candidates all;
   for (const std::string& family : family_names()) all.push_back({family + '/', ""});

@@ -70,7 +70,7 @@ complete -c armature -f -a '(__armature_candidates)'
 complete -c armature -n 'test -z "$(__armature_candidates)"' -F
 )sh";
 
-/// Of bash, zsh or fish.
+/// The completion of bash, zsh or fish.
 std::string_view script_of(const std::string& shell) {
   if (shell == "bash") return kBash;
   if (shell == "zsh") return kZsh;

@@ -12,7 +12,7 @@
 
 namespace armature ARMATURE_EXPORT {
 
-/// What a command asked for beyond the limits of a joint.
+/// A command's wish beyond the limits of a joint.
 struct LimitExcess {
   enum class Quantity { position, velocity, acceleration };
   int joint = 0;  // index of the independent joint
@@ -46,7 +46,7 @@ class SetPoint {
   const JointVector& velocity() const { return v_; }
   /// The worst that the last step had to hold back.
   const std::optional<LimitExcess>& excess() const { return excess_; }
-  /// What of the commands it holds back, for people: told once and the same until 0.1 s have passed
+  /// Tells people which command it holds back: once and the same until 0.1 s have passed
   /// without; empty then.
   const ReasonText& why() const { return why_; }
   /// Empty, or which joint `q` has beyond its limit, by more than 1 mrad or 1 mm farther than it is
@@ -54,7 +54,8 @@ class SetPoint {
   ReasonText far_beyond(const JointVector& q) const;
 
  private:
-  /// What one joint is asked to do in one step of `dt`; `in_step`: the command is of this instant.
+  /// One joint's part of a command, for one step of `dt`; `in_step`: the command is of this
+  /// instant.
   struct Step {
     double q = 0, v = 0, dt = 0;
     bool in_step = true;

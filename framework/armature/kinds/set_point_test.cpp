@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a driver does with a stream of commands: 1. what can be followed is followed exactly, 2.
+// A driver and a stream of commands: 1. what can be followed is followed exactly, 2.
 // what asks for more is followed within the limits, 3. what ceases is carried on, and ramped down.
 #include "armature/kinds/set_point.hpp"
 

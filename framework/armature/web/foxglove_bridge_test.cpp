@@ -48,7 +48,7 @@ class OneTopic : public TopicSource {
   void be_of_type(const char* type) { type_ = type; }
   void be_there(bool is_there) { is_there_ = is_there; }
   void be_there_twice() { is_there_twice_ = true; }
-  /// For who watches it next: it is there again when the topics are asked for.
+  /// Refuses the next one who watches; it is there again when the topics are asked for.
   void be_just_gone() { is_just_gone_ = true; }
   /// Returns when the topics have been asked for twice more.
   void wait_for_looks() const {

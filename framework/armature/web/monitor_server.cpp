@@ -77,7 +77,8 @@ WebServer::Options monitor_server(const MonitorAddress& address) {
   return server;
 }
 
-/// Of 0.0.0.0 those of every interface; what this machine alone reaches comes last.
+/// Links to the address, for 0.0.0.0 to that of every interface; one that only this machine reaches
+/// comes last.
 std::string monitor_links(const MonitorAddress& address, int port) {
   if (address.address == "0.0.0.0") {
     std::string links;

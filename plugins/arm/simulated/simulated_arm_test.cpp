@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is the simulated arm's own: its lag, and how it brakes without power.
+// The simulated arm's own part: its lag, and how it brakes without power.
 #include "simulated_arm.hpp"
 
 #include <gtest/gtest.h>

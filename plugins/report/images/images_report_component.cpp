@@ -19,7 +19,7 @@
 
 namespace armature::report::images {
 
-/// Of the true markers that were found, and how many were not, or with no numbers.
+/// Errors of the true markers that were found; how many were not, or have no numbers.
 struct MarkerErrors {
   int found = 0, missing = 0, unknown = 0;
   double sum2 = 0, max = 0, max_sigmas = 0, min_confidence = 1;  // [m2], [m]

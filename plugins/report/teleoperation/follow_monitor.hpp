@@ -36,7 +36,7 @@ class FollowMonitor {
   static constexpr double kMinLag_s = -0.1, kMaxLag_s = 1.1;
   std::optional<Following> following() const;
 
-  /// What the hand's tremor is, and what the follower has of it; rms [m]. Refused while the clutch
+  /// The hand's tremor, and what the follower has of it; rms [m]. Refused while the clutch
   /// was never closed for long enough.
   struct Tremor {
     double hand_m = 0, follower_m = 0;

@@ -37,7 +37,7 @@ namespace {
 constexpr Duration kPeriod = seconds(0.001);
 constexpr Duration kRow = seconds(0.01);
 
-/// What stops an arm: a button, the pedal that is let go, its drives without power.
+/// Things that stop an arm: a button, the pedal that is let go, its drives without power.
 enum class Mishap { stop, hold, power };
 constexpr const char* kMishaps[] = {"stop", "hold", "power"};
 

@@ -90,7 +90,7 @@ void Search::consider() {
   if (fit.rms_m < second_.rms_m) second_ = std::move(fit);
 }
 
-/// What the second choice takes for another: "markers 1, 3 may be exchanged".
+/// Markers that the second choice takes for others: "markers 1, 3 may be exchanged".
 std::string Search::exchanged() const {
   std::vector<std::size_t> others;
   for (std::size_t i = 0; i < planned_.size(); ++i) {

@@ -90,7 +90,7 @@ void check_match(const ComponentConfig& reader, const PortBinding& input,
   if (input.spec.of == output.spec.of && read_of && written_of && *read_of != *written_of) {
     mismatch("values of " + input.spec.of, *read_of, *written_of);
   }
-  // Of a command no other profile says when it is too old.
+  // No other profile says when a command is too old.
   if ((settings(input.spec.qos).transient_local && !settings(output.spec.qos).transient_local) ||
       (input.spec.qos == QosProfile::command && output.spec.qos != QosProfile::command)) {
     mismatch("QoS", to_string(input.spec.qos), to_string(output.spec.qos));

@@ -79,7 +79,7 @@ std::optional<std::string> raise_errors(const MarkerPairs& markers,
   return std::nullopt;
 }
 
-/// What a plugin may not answer: all else here counts with the number of markers.
+/// Why a plugin's answer cannot be used: all else here counts with the number of markers.
 std::optional<std::string> unusable(const Registration& found, std::size_t markers) {
   if (found.used.size() != markers || found.residual_m.size() != markers) {
     return fmt::format("the plugin tells {} markers and {} residuals of {} markers",

@@ -22,7 +22,7 @@ class ViewAgreement {
 
   /// A measurement in the base frame, and where the left camera was.
   void add(const Eigen::Isometry3d& base_T_left, const TargetMeasurement& measured);
-  /// What to tell the operator once five pairs of places agree that the cameras are wrong; or "".
+  /// Tells the operator, once five pairs of places agree, that the cameras are wrong; or "".
   const std::string& warning() const { return warning_; }
 
  private:
@@ -37,7 +37,7 @@ class ViewAgreement {
     Eigen::Matrix<double, 3, 6> by_cause;
   };
   void take(const View& view);
-  /// What each cause has to be for the pairs, where it explains them; or "".
+  /// The size that each cause needs to explain the pairs, where it does; or "".
   std::string causes() const;
 
   double baseline_m_;

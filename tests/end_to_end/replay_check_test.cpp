@@ -137,8 +137,10 @@ TEST_F(Replay, WhatWasJoinedComesBackAsItsPartsDo) {
                                     name};
   };
   Command vision{process("vision")};  // started by hand, each keeps the file of its own
-  run_command(process("main"), {}, kEnough);
-  vision.finish(kEnough);
+  constexpr std::chrono::seconds kMet{60};
+  const CommandResult main = run_command(process("main"), {}, kMet);
+  const CommandResult apart = vision.finish(kMet);
+  ASSERT_THAT(main.err, HasSubstr("stopping: the time limit of 4 s is over")) << apart.err;
   const std::string part = file("run.vision.mcap"), all = file("all.mcap");
   const json of_one = check({file()}, 1);
   EXPECT_FALSE(of_one["complete"]);

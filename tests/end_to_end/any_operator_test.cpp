@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <random>
 #include <stdexcept>
@@ -21,6 +20,7 @@
 #include "deployment_run.hpp"
 #include "operator_chronicle.hpp"
 #include "tests/dds_domain.hpp"
+#include "tests/environment_number.hpp"
 
 namespace armature::test {
 namespace {
@@ -46,11 +46,6 @@ struct System {
 };
 
 std::ostream& operator<<(std::ostream& out, const System& system) { return out << system.name; }
-
-int number(const char* variable, int without) {
-  const char* told = std::getenv(variable);
-  return told ? std::atoi(told) : without;
-}
 
 struct OperatedRun {
   DeploymentRun run;
@@ -368,8 +363,8 @@ void AnyOperator::expect_stops_that_stay(const OperatorChronicle& run) const {
 }
 
 TEST_P(AnyOperator, LetsNoArmMoveOtherwiseThanItMay) {
-  const int first = number("ARMATURE_FIRST_OPERATOR", 1),
-            count = number("ARMATURE_OPERATORS", GetParam().seeds);
+  const int first = environment_number("ARMATURE_FIRST_OPERATOR", 1),
+            count = environment_number("ARMATURE_OPERATORS", GetParam().seeds);
   for (int seed = first; seed < first + count; ++seed) {
     const OperatedRun operated = run_with(GetParam(), seed);
     SCOPED_TRACE("seed " + std::to_string(seed) + "\n" + operated.chronicle.story());
@@ -429,7 +424,7 @@ std::vector<System> systems() {
              .rests_while = {"pivoting", "registering", "locating", "changing tool"},
              .stops_within_s = 1.5,
              .body = Body::jaw,
-             // What turns the tools in the hand does not wait for a task that is paused.
+             // The hand that turns the tools does not wait for a task that is paused.
              .but_for = "pivot: the tracker has not seen",
              .seeds = 4,
              .leads_out = true},

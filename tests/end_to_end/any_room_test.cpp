@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // A lamp before whatever a room shows, of many things at once: what it believes is true to within 5
-// mm and 3 degrees, or it believes nothing, and says so. What a pair of cameras cannot see is left
+// mm and 3 degrees, or it believes nothing. What a pair of cameras cannot see is left
 // out (plugins/face_pose/surface, Limits). ARMATURE_ROOMS: so many, from number ARMATURE_FIRST_ROOM
 // on; `tools/test --full` has others every day.
 #include <fmt/format.h>
@@ -8,21 +8,16 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <sstream>
 
 #include "armature/values/file_content.hpp"
 #include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
+#include "tests/environment_number.hpp"
 
 namespace armature::test {
 namespace {
-
-int number(const char* variable, int without) {
-  const char* told = std::getenv(variable);
-  return told ? std::atoi(told) : without;
-}
 
 /// Settings of the scene, each of them in some of the rooms only.
 class AnyRoom {
@@ -101,7 +96,8 @@ void expect_true_estimates(const std::string& errors) {
 }
 
 TEST(LampInAnyRoom, BelievesNothingThatIsNotSo) {
-  const int first = number("ARMATURE_FIRST_ROOM", 1), count = number("ARMATURE_ROOMS", 3);
+  const int first = environment_number("ARMATURE_FIRST_ROOM", 1),
+            count = environment_number("ARMATURE_ROOMS", 3);
   int believed = 0;
   for (int seed = first; seed < first + count; ++seed) {
     const AnyRoom room{seed};

@@ -69,7 +69,7 @@ class LampAlignment {
   /// Whether the arm may set out to align with a face that is seen; asks the operator if need be,
   /// and anew where that face is elsewhere by then.
   bool may_align(Time now);
-  /// So far from `before` it may be another one.
+  /// The newest face is so far from `before` that it may be another one.
   bool is_elsewhere(const FaceEstimate& before) const;
   void ask_whose_face(const FaceEstimate& before, Time now);
   /// The face that it is about was found anew, elsewhere: it stops, and asks.

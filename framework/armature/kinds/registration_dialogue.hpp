@@ -74,26 +74,4 @@ class RegistrationDialogue {
   Input<msg::RegistrationResponse> answers_;
 };
 
-/// The same dialogue for who only watches it.
-class OverheardRegistration {
- public:
-  OverheardRegistration(Input<msg::RegistrationRequest> requests,
-                        Input<msg::RegistrationResponse> answers)
-      : requests_{requests}, answers_{answers} {}
-
-  /// Calls `hear` with every answer to the task's last questions that tells a registration.
-  template <class Hear>
-  void listen(const Hear& hear) {
-    if (requests_.latest()) asked_.add(requests_.latest()->request_id_());
-    for (std::size_t i = 0; i < answers_.size(); ++i) {
-      if (asked_.has(answers_[i].request_id_()) && answers_[i].valid_()) hear(answers_[i]);
-    }
-  }
-
- private:
-  LastQuestions asked_;
-  Input<msg::RegistrationRequest> requests_;
-  Input<msg::RegistrationResponse> answers_;
-};
-
 }  // namespace armature

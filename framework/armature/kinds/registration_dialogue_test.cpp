@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A task's dialogue with a registration: 1. asked again in time, 2. whose answers count, for the
-// task and for who watches it.
+// A task's dialogue with a registration: 1. asked again in time, 2. whose answers count.
 #include "armature/kinds/registration_dialogue.hpp"
 
 #include <gtest/gtest.h>
@@ -20,15 +19,6 @@ in:
 out:
   request: {type: armature_msgs/RegistrationRequest, doc: "Questions"}
 )";
-constexpr const char* kWatches = R"(
-armature_plugin: 1
-id: test/watches
-kind: component
-in:
-  request: {type: armature_msgs/RegistrationRequest, reads: latest, doc: "Questions"}
-  registration: {type: armature_msgs/RegistrationResponse, reads: queue(16), doc: "Answers"}
-)";
-
 constexpr double kOthersFrom_s = 20;  // it asks about other targets
 
 class Asks final : public Component {
@@ -50,24 +40,9 @@ class Asks final : public Component {
   RegistrationDialogue dialogue_;
 };
 
-class Watches final : public Component {
- public:
-  explicit Watches(Setup& setup)
-      : Component{setup},
-        overheard_{setup.input<msg::RegistrationRequest>("request"),
-                   setup.input<msg::RegistrationResponse>("registration")} {}
-  void step(Time) override {
-    overheard_.listen([&](const msg::RegistrationResponse&) { log("registered"); });
-  }
-
- private:
-  OverheardRegistration overheard_;
-};
-
-PluginRegistry with_both() {
+PluginRegistry with_asks() {
   PluginRegistry plugins{std::vector<std::filesystem::path>{}};
   plugins.add<Asks>(kAsks);
-  plugins.add<Watches>(kWatches);
   return plugins;
 }
 
@@ -86,9 +61,8 @@ class RegistrationDialogueTest : public ::testing::Test {
     return task_.take<msg::RegistrationRequest>("request");
   }
 
-  PluginRegistry plugins_ = with_both();
+  PluginRegistry plugins_ = with_asks();
   ComponentHarness task_{plugins_, {.component = "{plugin: test/asks}", .robot = {}}};
-  ComponentHarness watcher_{plugins_, {.component = "{plugin: test/watches}", .robot = {}}};
 };
 
 TEST_F(RegistrationDialogueTest, AsksAgainUnderANewNumberWhenNobodyAnswersWithinASecond) {
@@ -131,22 +105,6 @@ TEST_F(RegistrationDialogueTest, HearsNoAnswerAboutOtherMarkersThanItAskedForLas
   task_.send("registration", answer(newer));
   task_.step(kOthersFrom_s + 0.2);
   EXPECT_EQ(task_.lines(), std::vector<std::string>{"registered"});
-}
-
-TEST_F(RegistrationDialogueTest, WhoWatchesHearsWhatTheTaskWasTold) {
-  watcher_.send("registration", answer(0));
-  watcher_.step(9);
-  watcher_.send("request", asked_at(10)[0]);
-  const msg::RegistrationRequest last = asked_at(11)[0];
-  watcher_.send("request", last);
-  watcher_.send("registration", answer(last.request_id_() + 1));
-  watcher_.send("registration", answer(last.request_id_(), false));
-  watcher_.step(11);
-  EXPECT_TRUE(watcher_.lines().empty());
-  watcher_.send("request", asked_at(12)[0]);
-  watcher_.send("registration", answer(last.request_id_()));
-  watcher_.step(12);
-  EXPECT_EQ(watcher_.lines(), (std::vector<std::string>{"registered"}));
 }
 
 }  // namespace

@@ -4,8 +4,7 @@
 
 #include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/joint_messages.hpp"
-#include "armature/kinds/plan_of_task.hpp"
-#include "armature/kinds/registration_dialogue.hpp"
+#include "armature/kinds/registered_plan.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
@@ -53,9 +52,8 @@ class RvizMonitor final : public Component {
         rate_limiter_{seconds(1 / parameters_.rate)},
         marker_rate_limiter_{seconds(1 / parameters_.marker_rate)},
         ports_{setup},
-        needle_{ports_.needle_plan, ports_.request},
-        implant_{ports_.implant_plan, ports_.request},
-        registration_{ports_.request, ports_.registration} {
+        needle_{ports_.needle_plan, ports_.request, ports_.registration},
+        implant_{ports_.implant_plan, ports_.request, ports_.registration} {
     setup.activate_every(seconds(1 / parameters_.rate));
   }
 
@@ -97,17 +95,18 @@ class RvizMonitor final : public Component {
   bool hear_plans() {
     bool is_news =
         ports_.needle_plan.fresh() || ports_.implant_plan.fresh() || ports_.incision.fresh();
-    const bool is_other_needle = needle_.read(), is_other_implant = implant_.read();
-    if (is_other_needle || is_other_implant) {
-      image_.forget_registration();
-      is_news = true;
-    }
-    registration_.listen([&](const msg::RegistrationResponse& answer) {
-      image_.hear(answer);
-      is_news = true;
-    });
+    is_news = hear_registration(needle_) || is_news;
+    is_news = hear_registration(implant_) || is_news;
     if (ports_.chain.fresh()) image_.hear(*ports_.chain.latest());
     return hear_goals() || is_news || ports_.chain.fresh();
+  }
+
+  template <class Plan>
+  bool hear_registration(RegisteredPlan<Plan>& plan) {
+    const auto news = plan.read();
+    if (news.registration && plan.registration()) image_.hear(*plan.registration());
+    if (news.registration && !plan.registration()) image_.forget_registration();
+    return news.plan || news.registration;
   }
 
   /// True when the arm is on another way: a pause, going on and going back are the same one.
@@ -131,8 +130,8 @@ class RvizMonitor final : public Component {
   /// Once for each change: DDS keeps the last array for those who come later.
   void publish_plans(Time now) {
     auto markers = ports_.plan_markers.loan();
-    *markers = draw_plans({.needle = needle_.get(),
-                           .implant = implant_.get(),
+    *markers = draw_plans({.needle = needle_.plan(),
+                           .implant = implant_.plan(),
                            .incision = ports_.incision.latest(),
                            .way = way_ ? &*way_ : nullptr},
                           image_, tree_.name(kBaseFrame), now);
@@ -183,9 +182,8 @@ class RvizMonitor final : public Component {
   bool told_once_ = false;
   std::optional<Time> published_at_;
   Ports ports_;
-  PlanOfTask<msg::NeedlePlan> needle_;
-  PlanOfTask<msg::ImplantPlan> implant_;
-  OverheardRegistration registration_;
+  RegisteredPlan<msg::NeedlePlan> needle_;
+  RegisteredPlan<msg::ImplantPlan> implant_;
   ImageInBase image_;
   std::optional<msg::MotionGoal> way_;
 };

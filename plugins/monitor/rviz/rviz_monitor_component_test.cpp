@@ -163,6 +163,8 @@ TEST_F(RvizMonitorTest, DrawsAPlanOnImagesOnceTheAnswerToTheTasksQuestionIsThere
   monitor_.send("needle_plan", plan);
   msg::RegistrationRequest request;
   request.request_id_(7);
+  request.image_markers_() = plan.markers_();
+  request.targets_() = {plan.target_(), plan.entry_()};
   monitor_.send("request", request);
   step();
   EXPECT_EQ(monitor_.take<msg::MarkerArray>("plan_markers").back().markers_().size(), 1U);

@@ -12,8 +12,7 @@
 #include "armature/kinds/announced_volume.hpp"
 #include "armature/kinds/geometry_params.hpp"
 #include "armature/kinds/joint_messages.hpp"
-#include "armature/kinds/plan_of_task.hpp"
-#include "armature/kinds/registration_dialogue.hpp"
+#include "armature/kinds/registered_plan.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/kinds/zone_messages.hpp"
@@ -58,8 +57,7 @@ class SectionsComponent final : public Component {
         needle_axis_{robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ())},
         ports_{setup},
         announced_{ports_.volume},
-        plan_{ports_.plan, ports_.request},
-        registration_{ports_.request, ports_.registration},
+        plan_{ports_.plan, ports_.request, ports_.registration},
         images_{ports_.axial, ports_.coronal, ports_.sagittal} {
     if (parameters_.window[0] >= parameters_.window[1]) {
       setup.params().refuse({"window"}, "'window' is black first, then white, which is above it");
@@ -68,9 +66,8 @@ class SectionsComponent final : public Component {
   }
 
   void step(Time now) override {
-    const bool is_other_plan = plan_.read();
-    if (is_other_plan) image_T_robot_.reset();
-    const bool takes_volume = !volume_ || !plan_.get() || is_other_plan;
+    const auto news = plan_.read();
+    const bool takes_volume = !volume_ || !plan_.plan() || news.plan;
     if (auto volume = takes_volume ? announced_.take() : std::nullopt) {
       if (*volume) {
         volume_ = std::move(**volume);
@@ -80,9 +77,10 @@ class SectionsComponent final : public Component {
         degraded(volume->error().text);
       }
     }
-    registration_.listen([&](const msg::RegistrationResponse& response) {
-      image_T_robot_ = robot_T_image_of(response).inverse();
-    });
+    if (news.registration) {
+      image_T_robot_.reset();
+      if (plan_.registration()) image_T_robot_ = robot_T_image_of(*plan_.registration()).inverse();
+    }
     tool_ = tool_now();
     publish_tool(now);
     for (std::size_t i = 0; volume_ && i < kPictures.size(); ++i) {
@@ -124,10 +122,10 @@ class SectionsComponent final : public Component {
 
   /// Null while there is none whose line is finite.
   const msg::NeedlePlan* plan() const {
-    return plan_.get() && (target() + entry()).allFinite() ? plan_.get() : nullptr;
+    return plan_.plan() && (target() + entry()).allFinite() ? plan_.plan() : nullptr;
   }
-  Eigen::Vector3d target() const { return to_eigen(plan_.get()->target_()); }
-  Eigen::Vector3d entry() const { return to_eigen(plan_.get()->entry_()); }
+  Eigen::Vector3d target() const { return to_eigen(plan_.plan()->target_()); }
+  Eigen::Vector3d entry() const { return to_eigen(plan_.plan()->entry_()); }
 
   std::vector<ForbiddenZone> vessels() const {
     return plan() ? zones_of(plan()->forbidden_()) : std::vector<ForbiddenZone>{};
@@ -149,8 +147,8 @@ class SectionsComponent final : public Component {
 
   /// Why nothing can be told of the tool, or "".
   std::string reason() const {
-    if (!tool_) return tool_.error().text;
-    return plan() ? "" : "there is no plan of a finite line yet";
+    if (plan_.plan() && !plan()) return "there is no plan of a finite line yet";
+    return tool_ ? "" : tool_.error().text;
   }
 
   void publish_tool(Time now) {
@@ -222,8 +220,7 @@ class SectionsComponent final : public Component {
   Expected<Tool> tool_ = refuse("the image is not registered yet");
   Ports ports_;
   AnnouncedVolume announced_;
-  PlanOfTask<msg::NeedlePlan> plan_;
-  OverheardRegistration registration_;
+  RegisteredPlan<msg::NeedlePlan> plan_;
   std::array<Output<msg::Image>, 3> images_;
 };
 

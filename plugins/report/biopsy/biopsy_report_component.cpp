@@ -8,9 +8,8 @@
 #include <string>
 
 #include "armature/kinds/joint_messages.hpp"
-#include "armature/kinds/plan_of_task.hpp"
 #include "armature/kinds/pose_messages.hpp"
-#include "armature/kinds/registration_dialogue.hpp"
+#include "armature/kinds/registered_plan.hpp"
 #include "armature/kinds/setup_robot.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
@@ -42,15 +41,13 @@ class BiopsyReport final : public Component {
         robot_{robot_of(setup)},
         needle_axis_{robot_.pointing_axis().value_or(Eigen::Vector3d::UnitZ())},
         ports_{setup},
-        plan_{ports_.plan, ports_.request},
-        registration_{ports_.request, ports_.registration} {
+        plan_{ports_.plan, ports_.request, ports_.registration} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
     if (!start_) start_ = now;
-    plan_.read();
-    registration_.listen([&](const msg::RegistrationResponse& response) { read(response); });
+    if (plan_.read().registration && plan_.registration()) read(*plan_.registration());
     for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) read(ports_.measured_js[i], now);
     for (std::size_t i = 0; i < ports_.task_state.size(); ++i) read(ports_.task_state[i], now);
     // What the tip does after its task was cut off counts: the arm ramps down.
@@ -103,23 +100,23 @@ class BiopsyReport final : public Component {
 
   /// None until the task said that the needle is there.
   std::optional<double> target_error_m() const {
-    if (!tip_at_target_ || !plan_.get() || !ports_.truth.latest()) return {};
+    if (!tip_at_target_ || !plan_.plan() || !ports_.truth.latest()) return {};
     const auto robot_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
     if (!robot_T_image) return {};
-    return (*tip_at_target_ - *robot_T_image * to_eigen(plan_.get()->target_())).norm();
+    return (*tip_at_target_ - *robot_T_image * to_eigen(plan_.plan()->target_())).norm();
   }
 
   /// Rms distance of the touched places to the true markers that they are nearest to; none when
   /// nothing was touched.
   std::optional<double> touch_error_m() const {
     if (!ports_.touched.latest() || ports_.touched.latest()->points_().empty()) return {};
-    if (!plan_.get() || !ports_.truth.latest()) return {};
+    if (!plan_.plan() || !ports_.truth.latest()) return {};
     const auto robot_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
     if (!robot_T_image) return {};
     double squares = 0;
     for (const msg::Point& place : ports_.touched.latest()->points_()) {
       double nearest = std::numeric_limits<double>::infinity();
-      for (const msg::Point& marker : plan_.get()->markers_()) {
+      for (const msg::Point& marker : plan_.plan()->markers_()) {
         const Eigen::Vector3d off = to_eigen(place) - *robot_T_image * to_eigen(marker);
         nearest = std::min(nearest, off.squaredNorm());
       }
@@ -182,8 +179,7 @@ class BiopsyReport final : public Component {
   std::optional<double> time_to_target_s_;
   std::string trouble_, ended_as_;
   Ports ports_;
-  PlanOfTask<msg::NeedlePlan> plan_;
-  OverheardRegistration registration_;
+  RegisteredPlan<msg::NeedlePlan> plan_;
 };
 
 }  // namespace armature::report::biopsy

@@ -12,8 +12,7 @@
 
 #include "armature/kinds/chain_messages.hpp"
 #include "armature/kinds/joint_messages.hpp"
-#include "armature/kinds/plan_of_task.hpp"
-#include "armature/kinds/registration_dialogue.hpp"
+#include "armature/kinds/registered_plan.hpp"
 #include "armature/kinds/registration_messages.hpp"
 #include "armature/kinds/setup_flange.hpp"
 #include "armature/kinds/setup_robot.hpp"
@@ -57,15 +56,12 @@ class ImplantReport final : public Component {
         robot_{robot_of(setup)},
         flange_{flange_of(robot_)},
         ports_{setup},
-        registration_{ports_.request, ports_.registration} {
+        plan_{ports_.plan, ports_.request, ports_.registration} {
     setup.activate_every(kPeriod);
   }
 
   void step(Time now) override {
     if (!start_) start_ = now;
-    registration_.listen([&](const msg::RegistrationResponse& response) {
-      jaw_T_image_ = robot_T_image_of(response);
-    });
     read_plan();
     read_chains();
     for (std::size_t i = 0; i < ports_.task_state.size(); ++i) read(ports_.task_state[i], now);
@@ -152,38 +148,31 @@ class ImplantReport final : public Component {
                        as_set ? "'near_mm'" : "half of what it is from the next site's");
   }
 
-  /// The plan that the task drills, by what it asked the registration: the task goes on with the
-  /// one that it began with when another one comes.
   void read_plan() {
-    const msg::ImplantPlan* newest = ports_.plan.latest();
-    if (!newest) return;
-    if (!first_plan_) first_plan_ = *newest;
-    if (const msg::RegistrationRequest* request = ports_.request.latest()) {
-      for (const msg::ImplantPlan* plan :
-           {newest, static_cast<const msg::ImplantPlan*>(&*first_plan_)}) {
-        if (is_asked_of(*plan, *request)) plan_ = *plan;
-      }
-    }
+    plan_.read();
+    const msg::ImplantPlan *own = plan_.plan(), *newest = ports_.plan.latest();
     const bool is_other =
-        plan_ && (newest->sites_() != plan_->sites_() || newest->implants_() != plan_->implants_());
+        own && newest && plan_.registration() &&
+        (newest->sites_() != own->sites_() || newest->implants_() != own->implants_());
     if (!is_other || std::exchange(told_other_plan_, true)) return;
     log("another plan has come; errors are measured against the one that was registered");
   }
 
   void read_chains() {
-    if (!ports_.truth.latest() || !ports_.estimate.latest() || !plan_ || !jaw_T_image_) return;
+    if (!ports_.truth.latest() || !ports_.estimate.latest() || !plan_.registration()) return;
+    const Eigen::Affine3d jaw_T_image = robot_T_image_of(*plan_.registration());
     const auto truth = chain_of(*ports_.truth.latest());
     auto estimate = chain_of(*ports_.estimate.latest());
     if (!truth) return degraded("truth: " + truth.error().text);
     if (!estimate) return degraded("estimate: " + estimate.error().text);
-    estimate->patient_T_image = *jaw_T_image_;
+    estimate->patient_T_image = jaw_T_image;
     true_chain_ = *truth;
     if (!bores_) bores_.emplace(sites(), *estimate, parameters_);
     bores_->believe(*estimate);
     auto driver = chain_of(*ports_.estimate.latest(), kDriver);
     const auto true_driver = chain_of(*ports_.truth.latest(), kDriver);
     if (!driver || !true_driver) return;
-    driver->patient_T_image = *jaw_T_image_;
+    driver->patient_T_image = jaw_T_image;
     true_driver_ = *true_driver;
     if (!implants_) implants_.emplace(places(), *driver, parameters_);
     implants_->believe(*driver);
@@ -191,14 +180,14 @@ class ImplantReport final : public Component {
 
   std::vector<Site> sites() const {
     std::vector<Site> sites;
-    for (const msg::Pose& site : plan_->sites_()) sites.push_back({to_eigen(site)});
+    for (const msg::Pose& site : plan_.plan()->sites_()) sites.push_back({to_eigen(site)});
     return sites;
   }
 
   /// Of the implants' ends.
   std::vector<Site> places() const {
     std::vector<Site> places = sites();
-    const auto& implants = plan_->implants_();
+    const auto& implants = plan_.plan()->implants_();
     places.resize(std::min(places.size(), implants.size()));
     for (std::size_t i = 0; i < places.size(); ++i) {
       places[i].image_T_site.translate(Vector3d{0, 0, -implants[i].above_bottom_()});
@@ -376,7 +365,6 @@ class ImplantReport final : public Component {
   RobotModel robot_;
   Flange flange_;
   std::optional<Time> start_, drilled_at_, ended_at_;
-  std::optional<msg::ImplantPlan> first_plan_, plan_;
   bool told_other_plan_ = false;
   std::optional<Eigen::Affine3d> jaw_T_image_;
   GuidedChain true_chain_, true_driver_;
@@ -394,7 +382,7 @@ class ImplantReport final : public Component {
   std::optional<double> speed_;  // [rad/s] of the fastest joint, last
   bool finished_ = false;
   Ports ports_;
-  OverheardRegistration registration_;
+  RegisteredPlan<msg::ImplantPlan> plan_;
 };
 
 }  // namespace armature::report::implant

@@ -174,16 +174,16 @@ TEST_F(RunForAScript, FilesOfAnOlderRunGoFromTheFolderAndThoseOfOthersStay) {
   fs::create_directories(folder_.path());
   std::ofstream{folder_ / "notes.txt"} << "mine";
   const auto first =
-      run_command({armature(), "run", source_file("configs/sr1_from_images.yaml"), "--json",
+      run_command({armature(), "run", source_file("configs/sr1_biopsy.yaml"), "--json",
                    "--report", folder_.path(), "--domain", std::to_string(domain_)});
   ASSERT_EQ(first.exit_code, 0) << first.err;
-  for (const char* name : {"needle_ways.csv", "arm_joints.csv", "report.html", "run.mcap"}) {
+  for (const char* name : {"arm_joints.csv", "arm_joints.svg", "report.html", "run.mcap"}) {
     EXPECT_TRUE(fs::exists(folder_ / name)) << name;
   }
   const auto checked =
       run_command({"/usr/bin/env", "-C", folder_.path(), "sha256sum", "-c", "report.sha256"});
   EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
-  EXPECT_THAT(checked.out, testing::HasSubstr("needle_ways.csv: OK\n"));
+  EXPECT_THAT(checked.out, testing::HasSubstr("arm_joints.csv: OK\n"));
   EXPECT_THAT(checked.out, testing::HasSubstr("report.html: OK\n"));
   std::ofstream{folder_ / "arm_joints.svg", std::ios::app} << "<!-- seen by me -->";
   const auto refused =

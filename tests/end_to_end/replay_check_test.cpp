@@ -98,13 +98,6 @@ TEST_F(Replay, ARunOnTheSystemClockComesBackBitForBit) {
   EXPECT_GT(component_of(checked, "motion")["activations"], 2'000);
 }
 
-TEST_F(Replay, ARunOnTheSimulatedClockComesBackBitForBit) {
-  record({"--set", "clock=simulated"});
-  const json checked = check({file()}, 0);
-  EXPECT_TRUE(checked["identical"]);
-  EXPECT_GT(component_of(checked, "motion")["activations"], 3'900) << "none of 4 s was lost";
-}
-
 TEST_F(Replay, ARunInSeveralProcessesComesBackBitForBit) {
   record(
       {"--set", "components.landmarks.process=vision", "--set", "components.face.process=vision"});

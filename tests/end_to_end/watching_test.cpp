@@ -108,7 +108,7 @@ TEST_F(Watching, WhoIsNotThereIsNamedWhenTheTimeIsOver) {
 
 TEST_F(Watching, TopEndsWhenTheTimeIsOver) {
   const Command run = start("tests/end_to_end/arm_watched.yaml", {"--set", "clock=system"});
-  const std::vector<std::string> top{"top", "--interval", "0.2", "--timeout", "8"};
+  const std::vector<std::string> top{"top", "--interval", "0.2", "--timeout", "4"};
   CommandResult result = run_command(line(top), {}, kLongEnough);
   EXPECT_EQ(result.exit_code, 0) << result.err << run.err();
   EXPECT_THAT(result.out, HasSubstr("watched: "));
@@ -116,7 +116,7 @@ TEST_F(Watching, TopEndsWhenTheTimeIsOver) {
   counted.insert(counted.end(), {"-n", "1000"});
   result = run_command(counted, {}, kLongEnough);
   EXPECT_EQ(result.exit_code, 5);
-  EXPECT_THAT(result.err, HasSubstr(" of 1000 tables within 8 s"));
+  EXPECT_THAT(result.err, HasSubstr(" of 1000 tables within 4 s"));
 }
 
 /// The lamp with its cameras: what moves on a picture's stamp is measured by it.

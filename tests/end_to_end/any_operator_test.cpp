@@ -43,6 +43,7 @@ struct System {
   bool leads_out = false;  // an abort: to where the approach began
   int mishaps = 0;
   bool tracker_fails = false;  // now and then, and what it sees is knocked
+  bool plan_changes = false;
 };
 
 std::ostream& operator<<(std::ostream& out, const System& system) { return out << system.name; }
@@ -94,6 +95,9 @@ OperatedRun run_with(const System& system, int seed) {
                         {params + "file=" + file, params + "seed=" + std::to_string(seed),
                          params + "aborts=" + (aborts ? "true" : "false"),
                          params + "mishaps=" + std::to_string(system.mishaps)});
+  if (system.plan_changes) {
+    start.settings.push_back("components.planner.params.seed=" + std::to_string(seed));
+  }
   if (system.tracker_fails) {
     const auto settings = tracker_settings(seed);
     start.settings.insert(start.settings.end(), settings.begin(), settings.end());
@@ -450,6 +454,16 @@ std::vector<System> systems() {
     stopped.mishaps = 4;
     stopped.seeds = std::min(stopped.seeds, 4);
     all.push_back(stopped);
+    if (all[i].name == "Biopsy") {
+      System replanned = all[i];
+      replanned.name = "Replanned" + replanned.name;
+      replanned.settings = {"components.head.out={plan: head/planned}",
+                            "components.planner={plugin: test/second_thoughts, in: {planned: "
+                            "head/planned}}"};
+      replanned.plan_changes = true;
+      replanned.ends_well = false;
+      all.push_back(replanned);
+    }
     if (all[i].body != Body::jaw) continue;
     System blinded = all[i];
     blinded.name = "Blinded" + blinded.name;

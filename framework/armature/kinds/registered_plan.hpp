@@ -61,8 +61,18 @@ class RegisteredPlan {
   /// The answer to the newest question about this plan that has one; null while there is none. It
   /// tells a registration.
   const msg::RegistrationResponse* registration() const {
+    return answer_to([&](const auto& question) { return plan_ && is_asked_of(*plan_, question); });
+  }
+  /// The same of whatever plan: `plan` may be the truth, which no task knows.
+  const msg::RegistrationResponse* any_registration() const {
+    return answer_to([](const auto&) { return true; });
+  }
+
+ private:
+  template <class Is>
+  const msg::RegistrationResponse* answer_to(const Is& is_wanted) const {
     for (const msg::RegistrationRequest& question : std::views::reverse(last_questions_)) {
-      if (!plan_ || !is_asked_of(*plan_, question)) continue;
+      if (!is_wanted(question)) continue;
       for (const msg::RegistrationResponse& answer : std::views::reverse(last_answers_)) {
         if (answer.request_id_() == question.request_id_()) return &answer;
       }
@@ -70,7 +80,6 @@ class RegisteredPlan {
     return nullptr;
   }
 
- private:
   /// An answer may take longer than it takes to ask again, and a question than its answer.
   template <class Message>
   static void remember(const Message& message, std::vector<Message>& last) {

@@ -47,7 +47,8 @@ class BiopsyReport final : public Component {
 
   void step(Time now) override {
     if (!start_) start_ = now;
-    if (plan_.read().registration && plan_.registration()) read(*plan_.registration());
+    plan_.read();
+    if (plan_.any_registration()) read(*plan_.any_registration());
     for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) read(ports_.measured_js[i], now);
     for (std::size_t i = 0; i < ports_.task_state.size(); ++i) read(ports_.task_state[i], now);
     // What the tip does after its task was cut off counts: the arm ramps down.

@@ -95,5 +95,41 @@ TEST_F(Meeting, ThatIsInterruptedIsNoRunAndLeavesNoRecording) {
   EXPECT_FALSE(std::filesystem::exists(recording));
 }
 
+TEST_F(Meeting, OfProcessesThatAreStartedByHandIsNoRunEitherWhenItIsInterrupted) {
+  const TemporaryFolder folder;
+  for (const std::string process : {"main", "aside"}) {
+    auto words = command();
+    words.insert(words.end(), {"--process", process, "--set",
+                               "record={file: " + (folder / "run.mcap").string() + "}"});
+    Command run{words, {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}};
+    ASSERT_TRUE(run.wait_for_err("waiting: topic '/pulse/", seconds{30})) << run.err();
+    run.signal(SIGINT);
+    const CommandResult result = run.finish(seconds{30});
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_EQ(result.out,
+              "{\"status\":\"not_started\",\"reason\":\"interrupted before the start\"}\n");
+    EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  }
+}
+
+TEST_F(Meeting, OfProcessesThatAreStartedByHandIsOneForAllHoweverShortTheRunIs) {
+  const auto start = [&](const std::string& process) {
+    auto words = command();
+    words.insert(words.end(), {"--process", process, "--set", "run.time_limit_s=0.001"});
+    return words;
+  };
+  const Command::Options options{.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}},
+                                 .input = {}};
+  for (int run = 0; run < 3; ++run) {
+    Command aside{start("aside"), options};
+    const CommandResult main = run_command(start("main"), options, seconds{30});
+    const CommandResult other = aside.finish(seconds{30});
+    for (const CommandResult& one : {main, other}) {
+      EXPECT_FALSE(one.timed_out) << one.err;
+      EXPECT_THAT(one.err, HasSubstr("stopping: the time limit of 0.001 s is over"));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace armature::test

@@ -249,9 +249,14 @@ int run_other(const RunOptions& options, const Process& process, Deployment& dep
               PluginRegistry& plugins, Console& console, ChildWatch& watch, WatchedEnd& end) {
   check_recording(deployment.config(), process.name, process.origin.start);
   deployment.connect(plugins, process.domain, process.origin.run);
-  begin_recording(deployment, process.name, process.origin.start);
+  const auto recording = begin_recording(deployment, process.name, process.origin.start);
   watch.set_deployment(deployment);
-  deployment.run(watch);
+  try {
+    deployment.run(watch);
+  } catch (...) {
+    if (recording && !watch.started()) remove_older(*recording);
+    throw;
+  }
   int code = process.name == kMainProcess
                  ? conclude_main_by_hand(options, deployment, watch, console, end)
                  : conclude_child(options, deployment, watch, end);

@@ -208,7 +208,8 @@ bool ChildWatch::may_start(const std::optional<std::string>& waiting) {
     // Whoever starts the processes by hand takes his time.
     if (waiting && *waiting != said_waiting_) console().line("runtime", "waiting: " + *waiting);
     said_waiting_ = waiting.value_or("");
-    return !waiting;
+    started_ = !waiting;
+    return started_;
   }
   hear();
   say(said_joined_, "joined");
@@ -223,7 +224,9 @@ std::optional<std::string> ChildWatch::stop_cause() {
   if (control_.lost()) return "the main process is gone";
   if (told_end_) return "the main process ends it";
   if (!stop_.empty()) return stop_;
-  return interruption_now();
+  const auto cause = interruption_now();
+  if (cause && alone() && !started_) throw std::runtime_error{*cause + " before the start"};
+  return cause;
 }
 
 void ChildWatch::stopping(const std::string& cause, bool scenario_over) {

@@ -103,6 +103,8 @@ class ChildWatch final : public ProcessWatch {
   void set_deployment(Deployment& deployment) { deployment_ = &deployment; }
   /// True without a main process.
   bool alone() const { return control_.file() < 0; }
+  /// True once the run has begun here.
+  bool started() const { return started_; }
   /// Tells the main process what failed here, "" for nothing.
   void tell_fault(const std::string& fault);
   /// Tells the main process, or without one the operator, who was late.

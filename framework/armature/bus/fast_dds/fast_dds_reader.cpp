@@ -11,6 +11,7 @@
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/fast_dds_link.hpp"
 #include "armature/bus/fast_dds/guid_of.hpp"
+#include "armature/bus/fast_dds/met_peers.hpp"
 #include "armature/bus/fast_dds/refusal_counts.hpp"
 #include "armature/bus/fast_dds/sequence_gaps.hpp"
 #include "armature/bus/topic_name.hpp"
@@ -64,7 +65,7 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
   }
 
   int writers() const override { return writers_.load(std::memory_order_relaxed); }
-  int peers() const override { return peers_.load(std::memory_order_relaxed); }
+  int peers() const override { return peers_.count(); }
   std::vector<RefusedSamples> refused() const override {
     const std::scoped_lock lock{mutex_};
     return refused_.all();
@@ -167,7 +168,11 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
     const Guid writer = guid_of(rtps::iHandle2GUID(status.last_publication_handle));
     if (writer.participant == link_->participant->guid_prefix()) return;
     writers_.fetch_add(status.current_count_change, std::memory_order_relaxed);
-    if (status.current_count_change > 0 && link_->is_peer(writer)) ++peers_;
+    if (status.current_count_change < 0) {
+      peers_.gone(writer);
+    } else if (link_->is_peer(writer)) {
+      peers_.met(writer);
+    }
   }
 
   void on_liveliness_changed(dds::DataReader*,
@@ -199,7 +204,8 @@ class FastDdsReader final : public RemoteReader, private dds::DataReaderListener
   std::function<void(SampleRef)> deliver_;
   SamplePool* pool_ = nullptr;
   dds::DataReader* reader_ = nullptr;
-  std::atomic<int> writers_{0}, peers_{0};
+  std::atomic<int> writers_{0};
+  MetPeers peers_;
   mutable std::mutex mutex_;  // guards what follows
   bool closed_ = false;
   SampleRef next_;  // what the next sample is decoded into

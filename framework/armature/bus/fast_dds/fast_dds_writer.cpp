@@ -12,6 +12,7 @@
 #include "armature/bus/fast_dds/endpoint_qos.hpp"
 #include "armature/bus/fast_dds/fast_dds_link.hpp"
 #include "armature/bus/fast_dds/guid_of.hpp"
+#include "armature/bus/fast_dds/met_peers.hpp"
 #include "armature/bus/topic_name.hpp"
 
 namespace armature {
@@ -52,7 +53,7 @@ class FastDdsWriter final : public RemoteWriter, private dds::DataWriterListener
     if (matched_readers() > 0 || settings_.transient_local) queue_->offer(sample);
   }
   int matched_readers() const override { return watchers_.load(std::memory_order_relaxed); }
-  int peers() const override { return peers_.load(std::memory_order_relaxed); }
+  int peers() const override { return peers_.count(); }
   std::uint64_t dropped() const override { return queue_->dropped(); }
   std::vector<Watcher> who_watches() const override {
     const Discovery& discovery = link_->participant->discovery();
@@ -103,7 +104,11 @@ class FastDdsWriter final : public RemoteWriter, private dds::DataWriterListener
     const Guid reader = guid_of(rtps::iHandle2GUID(status.last_subscription_handle));
     if (reader.participant == link_->participant->guid_prefix()) return;
     watchers_.fetch_add(status.current_count_change, std::memory_order_relaxed);
-    if (status.current_count_change > 0 && link_->is_peer(reader)) ++peers_;
+    if (status.current_count_change < 0) {
+      peers_.gone(reader);
+    } else if (link_->is_peer(reader)) {
+      peers_.met(reader);
+    }
   }
 
   void on_offered_incompatible_qos(dds::DataWriter*,
@@ -121,7 +126,8 @@ class FastDdsWriter final : public RemoteWriter, private dds::DataWriterListener
   TopicSpec topic_;
   QosSettings settings_;
   dds::DataWriter* writer_ = nullptr;
-  std::atomic<int> watchers_{0}, peers_{0};
+  std::atomic<int> watchers_{0};
+  MetPeers peers_;
   std::unique_ptr<Egress::Queue> queue_;
 };
 

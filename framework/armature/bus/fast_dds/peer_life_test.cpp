@@ -31,6 +31,17 @@ TEST_F(FastDds, AProcessThatEndsProperlyIsNotMissed) {
   EXPECT_EQ(events(Kind::peer_lost), 0);
 }
 
+TEST_F(FastDds, APeerCountsWhileItIsThereAndAnotherOneOfItsNameInItsPlace) {
+  const auto transport = make_transport();
+  const auto reader = transport->subscribe(command_, true, collect()).value();
+  for (int life = 0; life < 2; ++life) {
+    Peer peer{domain_, "lamp", "f00d", "talk"};
+    EXPECT_TRUE(eventually([&] { return reader->peers() == 1; }));
+    EXPECT_EQ(peer.end(), 0);
+    EXPECT_TRUE(eventually([&] { return reader->peers() == 0; }));
+  }
+}
+
 TEST_F(FastDds, AReaderThatIsHaltedIsKnownByNameAndAcknowledgesNothingUntilItGoesOn) {
   const Peer peer{domain_, "lamp", "f00d", "echo"};
   const auto transport = make_transport();

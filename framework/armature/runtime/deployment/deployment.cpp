@@ -364,6 +364,7 @@ void Deployment::connect(PluginRegistry& plugins, int domain, const std::string&
       remote_->advertise(output, *topics_.at(writer_key(component, output)));
     }
   }
+  if (run.empty()) remote_->start_together();
 }
 
 }  // namespace armature

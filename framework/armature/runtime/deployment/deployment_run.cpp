@@ -39,7 +39,7 @@ void Deployment::run(RunWatch& watch) {
 
 bool Deployment::await_start(RunWatch& watch) {
   constexpr std::chrono::milliseconds kPause{5};
-  while (!watch.may_start(remote_ ? remote_->waiting() : std::nullopt)) {
+  while (!watch.may_start(remote_ ? remote_->waiting(clock_->now()) : std::nullopt)) {
     if (watch.stop_cause()) return false;
     std::this_thread::sleep_for(kPause);
   }

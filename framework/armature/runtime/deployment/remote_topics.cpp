@@ -73,10 +73,16 @@ void RemoteTopics::subscribe(const PortBinding& input, Topic& topic) {
   readers_[{input.topic, sources}] = std::move(*reader);
 }
 
-std::optional<std::string> RemoteTopics::waiting() const {
+void RemoteTopics::start_together() {
+  const std::set<std::string> others = processes_bound_to(*deployment_, process_);
+  if (!others.empty()) common_start_.emplace(*transport_, deployment_->name, process_, others);
+}
+
+std::optional<std::string> RemoteTopics::waiting(Time now) {
   const auto link =
       std::ranges::find_if_not(links_, [](const Link& candidate) { return candidate.met(); });
-  return link == links_.end() ? std::nullopt : std::optional{link->text};
+  if (link != links_.end()) return link->text;
+  return common_start_ ? common_start_->waiting(now) : std::nullopt;
 }
 
 std::vector<std::string> RemoteTopics::refusals() const {

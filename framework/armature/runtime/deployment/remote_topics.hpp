@@ -12,6 +12,7 @@
 
 #include "armature/bus/topic.hpp"
 #include "armature/bus/transport.hpp"
+#include "armature/runtime/deployment/common_start.hpp"
 #include "armature/runtime/deployment_file/deployment_config.hpp"
 #include "armature/runtime/plugins/plugin_library.hpp"
 
@@ -29,9 +30,12 @@ class RemoteTopics {
   /// Throws PluginError with the transport's reason.
   void advertise(const PortBinding& output, Topic& topic);
   void subscribe(const PortBinding& input, Topic& topic);
-  /// Which topic waits for which other process, if any does: "topic '/lamp/arm/measured_js' of
-  /// process 'main' has not met process 'arm'".
-  std::optional<std::string> waiting() const;
+  /// No main process starts this one and the others that it exchanges topics with: they begin
+  /// together. After its topics. Throws PluginError.
+  void start_together();
+  /// Which topic waits for which other process, if any does, at `now`: "topic
+  /// '/lamp/arm/measured_js' of process 'main' has not met process 'arm'".
+  std::optional<std::string> waiting(Time now);
   /// What strangers wrote to inputs that are the deployment's own, a sentence for each.
   std::vector<std::string> refusals() const;
   Transport& transport() { return *transport_; }
@@ -54,6 +58,7 @@ class RemoteTopics {
     std::function<bool()> met;
   };
   std::vector<Link> links_;
+  std::optional<CommonStart> common_start_;
 };
 
 }  // namespace armature

@@ -119,14 +119,15 @@ void SetPoint::follow(const ServoCommand& command, Time now, double dt) {
       found = streaming ? jump_in_stream(i, command) : jump(i, wanted);
     }
     on_stream_[joint] = !found && carried_to_now;  // else the arm is behind the stream
-    if (!found) {
-      executed_v_[i] = wanted.in_step ? (wanted.q - q_[i]) / dt : wanted.v;
-      q_[i] = std::clamp(wanted.q, lowest(i), highest(i));
-      v_[i] = wanted.v;
+    if (found && !excess_) excess_ = found;
+    // A stream that keeps the limits is found elsewhere than it was carried on to, after a loss.
+    if (found || is_beyond_a_step(i, wanted)) {
+      move_within_limits(i, wanted);
       continue;
     }
-    if (!excess_) excess_ = found;
-    move_within_limits(i, wanted);
+    executed_v_[i] = (wanted.q - q_[i]) / dt;
+    q_[i] = std::clamp(wanted.q, lowest(i), highest(i));
+    v_[i] = wanted.v;
   }
 }
 
@@ -162,6 +163,12 @@ std::optional<LimitExcess> SetPoint::jump(int joint, const Step& wanted) const {
   if (wanted.in_step) return std::nullopt;
   return displaced(joint, wanted.q - q_[joint] - 0.5 * (executed_v_[joint] + v) * wanted.dt,
                    window);
+}
+
+bool SetPoint::is_beyond_a_step(int joint, const Step& wanted) const {
+  const double v = (wanted.q - q_[joint]) / wanted.dt;
+  return std::abs(v) > model_.max_velocity()[joint] * (1 + kRounding) ||
+         sudden(joint, v - executed_v_[joint], wanted.dt);
 }
 
 std::optional<LimitExcess> SetPoint::jump_in_stream(int joint, const ServoCommand& command) const {

@@ -25,7 +25,8 @@ ReasonText describe(const LimitExcess& excess, const RobotModel& model, std::str
 
 /// Where the driver of an arm sets it, step by step. A command that can be followed is followed
 /// exactly, and carried on while no other comes; one that asks for more than the limits is followed
-/// as fast as they allow, without overshoot at the position limits. A joint that is found beyond a
+/// as fast as they allow, without overshoot at the position limits, and so is one that comes after
+/// others that were lost or late. A joint that is found beyond a
 /// limit may come back, but go no further. Real-time safe after construction.
 class SetPoint {
  public:
@@ -76,6 +77,8 @@ class SetPoint {
   /// The same between two commands, by their own stamps: when either side's thread runs late, the
   /// commands still tell a motion that keeps the limits.
   std::optional<LimitExcess> jump_in_stream(int joint, const ServoCommand& command) const;
+  /// Does the way there ask for more than the joint can in this step, whoever is to blame?
+  bool is_beyond_a_step(int joint, const Step& wanted) const;
   std::optional<LimitExcess> sudden(int joint, double change, double window) const;
   std::optional<LimitExcess> displaced(int joint, double gap, double window) const;
   void move_within_limits(int joint, const Step& wanted);

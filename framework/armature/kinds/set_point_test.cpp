@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <utility>
@@ -135,6 +136,24 @@ TEST_F(SetPointTest, NeverExceedsLimitsWhateverIsCommanded) {
     wild.stamp = now_ + seconds(0.001);
     step(wild);
   }
+}
+
+TEST_F(SetPointTest, KeepsItsLimitsWhereCommandsComeLateAndSomeAreLost) {
+  std::mt19937 random{5};
+  SCOPED_TRACE("seed 5");
+  std::uniform_int_distribution<int> late_ms{0, 20}, lost{0, 9};
+  const Quintic move = Quintic::between({0, 0, 0}, {0.9, 0, 0}, 1.2);
+  ServoCommand newest = command(0);
+  for (int k = 1; k <= 1300; ++k) {
+    const Time told = now_ + seconds(0.001) - seconds(0.001 * late_ms(random));
+    const double t = std::clamp(to_seconds(told - Time{}), 0.0, 1.2);
+    if (lost(random) > 5 && told > newest.stamp) {
+      newest = {told, value(move.position(t)), value(move.velocity(t))};
+    }
+    step(newest);
+    ASSERT_NEAR(arm_.position()[0], move.position(std::min(0.001 * k, 1.2)), 0.01);
+  }
+  EXPECT_NEAR(arm_.position()[0], 0.9, 1e-12);
 }
 
 TEST_F(SetPointTest, RampsDownAndHoldsWhenThereIsNoCommandAnyMore) {

@@ -94,7 +94,7 @@ class SimulatedArmComponent : public Component {
       return;
     }
     source.fault.clear();
-    source.command = command;
+    if (!is_overtaken(command, source.command)) source.command = command;
   }
   /// Nobody need say that it has.
   bool has_power() const { return !ports_.power.latest() || ports_.power.latest()->data_(); }

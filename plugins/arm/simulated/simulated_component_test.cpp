@@ -341,6 +341,21 @@ TEST_F(SimulatedArmComponentTest, AnOldCommandIsNotFollowed) {
   EXPECT_EQ(measured(), home_);
 }
 
+TEST_F(SimulatedArmComponentTest, ACommandThatANewerOneHasOvertakenIsNotFollowed) {
+  JointVector q = home_;
+  q[0] += 1e-6;
+  const msg::JointState overtaken = command(home_, still_);
+  steps(20);
+  for (int i = 0; i < 50; ++i) {
+    arm_.send("servo_jp", command(q, still_));
+    step();
+    arm_.send("servo_jp", overtaken);
+    step();
+    ASSERT_EQ(measured(), q);
+  }
+  EXPECT_EQ(state_, "ENABLED");
+}
+
 TEST(SimulatedArmComponent, DoesNotStartWithARobotThatNamesNoHome) {
   const config::Node robot = config::parse_text(
       "{armature_robot: 1, name: one, joints: [{name: j1, a_m: 1, limits_deg: [-90, 90], "

@@ -79,15 +79,15 @@ class @CLASS@Arm final : public Component {
 
  private:
   /// A command that has another length, is not finite or is far beyond a limit is none: the one
-  /// before grows old.
+  /// before grows old. So does the newest when older ones come behind it.
   void read(const msg::JointState& message) {
     ServoCommand command;
     refusal_ = read_servo_command(robot_, message, command);
     if (refusal_.empty()) refusal_ = set_point_.far_beyond(command.q);
-    if (refusal_.empty()) {
-      command_ = command;
-    } else {
+    if (!refusal_.empty()) {
       refusal_ = ReasonText::format("refused a command: {}", refusal_.view());
+    } else if (!is_overtaken(command, command_)) {
+      command_ = command;
     }
   }
   bool is_enabled() const { return std::string_view{device_.operating_state()} == "ENABLED"; }

@@ -92,5 +92,11 @@ int main() {
     expect(is_at(goal), "it stays where it is when a command is none");
     expect(arm.status().state == StatusReporter::State::degraded, "and says so");
   }
+
+  ask_for_a_while(goal);
+  write_all_joints(robot, home, still, Time{} + seconds(now_s - 0.05), command);
+  arm.send("servo_jp", command);
+  step();
+  expect(is_at(goal), "it does not go back to a command that a newer one has overtaken");
   return failures == 0 ? 0 : 1;
 }

@@ -19,6 +19,8 @@ namespace armature::task::teleoperation {
 namespace {
 
 constexpr Duration kPeriod = seconds(kHandPeriod_s);
+constexpr Duration kCalm = seconds(0.1);        // without trouble: it is over
+constexpr Duration kOtherWords = seconds(1.0);  // of trouble that goes on, from the ones before
 
 }  // namespace
 
@@ -50,7 +52,7 @@ class TeleoperationComponent final : public Component {
       log(line);
     }
     task_.see(view(), now);
-    show_health();
+    show_health(now);
     send(task_.outgoing_leader_goal(now), now, ports_.leader_goal);
     send(task_.outgoing_follower_goal(), now, ports_.follower_goal);
     publish_state(now);
@@ -93,10 +95,16 @@ class TeleoperationComponent final : public Component {
     return view;
   }
 
-  void show_health() {
+  /// What is wrong with one sample and not with the next is told as one, and so is that whose
+  /// numbers change.
+  void show_health(Time now) {
     const std::string wrong = !bad_.empty() ? bad_ : task_.trails() ? trails_ : "";
+    if (!wrong.empty()) wrong_at_ = now;
     if (wrong == shown_wrong_) return;
+    const bool goes_on = wrong.empty() ? now - wrong_at_ < kCalm : now - shown_at_ < kOtherWords;
+    if (!shown_wrong_.empty() && goes_on) return;
     shown_wrong_ = wrong;
+    shown_at_ = now;
     if (wrong.empty()) {
       healthy();
     } else {
@@ -114,6 +122,7 @@ class TeleoperationComponent final : public Component {
   Teleoperation task_;
   std::string trails_;             // what is said of an instrument that does
   std::string bad_, shown_wrong_;  // what was told badly
+  Time wrong_at_, shown_at_;
   Ports ports_;
   TaskPorts task_ports_;
 };

@@ -2,6 +2,9 @@
 // Teleoperation on its topics: 1. what it sends to whom, 2. what it says, 3. signals that are old.
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
@@ -131,8 +134,21 @@ TEST_F(TeleoperationComponentTest, APoseThatIsNoneIsSaidAndHoldsTheFollower) {
   EXPECT_EQ(state_.detail_(), "the leader tells nothing");
   EXPECT_EQ(task_.take<msg::MotionGoal>("follower_goal").back().mode_(), 2);
   leader_T_hand_.translation().x() = 0.1;
-  step();
+  step(101);
   EXPECT_EQ(task_.status().reason, "");
+}
+
+TEST_F(TeleoperationComponentTest, PosesThatAreNoneNowAndThenAreToldAsOneTrouble) {
+  take_leader();
+  int told = 0;
+  std::string last = task_.status().reason;
+  for (int i = 0; i < 500; ++i) {
+    leader_T_hand_.translation().x() = i % 3 == 0 ? NAN : 0.1;
+    step();
+    if (std::exchange(last, task_.status().reason) != last) ++told;
+  }
+  EXPECT_EQ(told, 1);
+  EXPECT_EQ(last, "the leader's position is not finite");
 }
 
 TEST_F(TeleoperationComponentTest, ASilentClutchOrArmHoldsTheFollowerWithinATenthOfASecond) {

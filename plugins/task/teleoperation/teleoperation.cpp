@@ -16,7 +16,9 @@ namespace {
 constexpr Duration kSettlesWithin = seconds(1.0);  // an arm that lags behind its reference
 constexpr Duration kTrailsFor = seconds(0.1);      // an instrument, before that counts
 constexpr Duration kTellsWithin = seconds(1.0);    // who has not told anything yet
-constexpr double kLongestGap_s = 0.1;              // between two poses of the hand
+constexpr const char* kClosedEarly =
+    "the clutch was closed before the follower could go: open it and close it again";
+constexpr double kLongestGap_s = 0.1;  // between two poses of the hand
 constexpr double kDegrees = 180 / std::numbers::pi;
 
 ToolPose tool_pose_of(const Eigen::Isometry3d& base_T_tool) {
@@ -156,14 +158,20 @@ void Teleoperation::judge_following(double behind_m, Time now) {
 }
 
 void Teleoperation::await_clutch(const ConsoleView& view, const std::string& missing, Time now) {
-  if (phase_ != Phase::held) name_missing(missing, now);
+  const bool closed = view.clutch_closed && *view.clutch_closed;
+  const bool was_given = leader_goal_.has_moved();  // the leader, to the hand
+  closed_early_ = closed && (closed_early_ || (was_given && !missing.empty()));
+  if (phase_ != Phase::held) {
+    const bool only_early = closed_early_ && missing.empty();
+    name_missing(only_early ? kClosedEarly : missing, now);
+  }
   if (!missing.empty()) return;
   if (phase_ == Phase::held) {
-    if (*view.clutch_closed) return;
+    if (closed) return;
     phase_ = Phase::clutch_open;
     trouble_.clear();
   }
-  if (*view.clutch_closed && procedure_.may_act()) engage(view);
+  if (closed && !closed_early_ && procedure_.may_act()) engage(view);
 }
 
 void Teleoperation::engage(const ConsoleView& view) {

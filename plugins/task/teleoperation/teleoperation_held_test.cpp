@@ -138,6 +138,29 @@ TEST_F(TeleoperationTest, AJumpWhileTheClutchIsOpenMovesNothingAndHoldsNothing) 
   EXPECT_LT((follower_goal_->pose.position - instrument_.translation()).norm(), 1e-9);
 }
 
+TEST_F(TeleoperationTest,
+       AClutchThatWasClosedWhileTheLeaderWasStoppedMovesNothingUntilItIsClosedAnew) {
+  close_clutch();
+  view_.clutch_closed = false;
+  see();
+  hear_leader(Report::failed, "stop", "stopped until it is rearmed");
+  see();
+  view_.clutch_closed = true;
+  see(300);
+  hear_leader(Report::executing);  // it was given to the hand again behind a rearm
+  see(900);
+  EXPECT_EQ(task_.phase(), Phase::clutch_open);
+  see(200);
+  EXPECT_EQ(task_.trouble(),
+            "the clutch was closed before the follower could go: open it and close it again");
+  view_.clutch_closed = false;
+  see();
+  EXPECT_EQ(task_.trouble(), "");
+  view_.clutch_closed = true;
+  see();
+  EXPECT_EQ(task_.phase(), Phase::teleoperating);
+}
+
 TEST_F(TeleoperationTest, AnInstrumentThatTrailsIsTold) {
   close_clutch();
   const auto stay_behind = [&](int steps, double mm) {

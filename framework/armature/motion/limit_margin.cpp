@@ -15,8 +15,8 @@ bool turns(const Joint& joint) { return joint.type == Joint::Type::revolute; }
 
 /// In the unit in which a margin is stated.
 std::string in_words(const Joint& joint, double amount) {
-  return turns(joint) ? fmt::format("{:.4g} deg", amount * 180 / std::numbers::pi)
-                      : fmt::format("{:.4g} mm", amount * 1e3);
+  return turns(joint) ? fmt::format("{:.10g} deg", amount * 180 / std::numbers::pi)
+                      : fmt::format("{:.10g} mm", amount * 1e3);
 }
 
 /// nullopt, or which joint the limits do not let be where it is at home.

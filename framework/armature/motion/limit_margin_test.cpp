@@ -54,6 +54,17 @@ TEST(LimitMargin, ThatPutsHomeOutsideIsRefusedWithTheJoint) {
       "115 deg");
 }
 
+TEST(LimitMargin, ThatPutsHomeOutsideByLittleTellsByHowMuch) {
+  constexpr double kDegree = std::numbers::pi / 180;
+  RobotParts parts = needle_arm().parts();
+  parts.joints[2].upper = (*parts.home)[2] = 135 * kDegree;
+  const auto none = narrowed(RobotModel{parts}, {.turning_rad = 0.01 * kDegree});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().text,
+            "at home joint j3 of robot sr1_needle is at 135 deg, and the margin leaves -224.99 deg "
+            "to 134.99 deg");
+}
+
 TEST(LimitMargin, ForJointsThatTheRobotDoesNotHaveIsRefused) {
   const RobotModel lamp = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/dental_lamp.yaml");
   const auto none = narrowed(lamp, {.sliding_m = 0.001});

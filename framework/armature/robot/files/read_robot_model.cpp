@@ -88,8 +88,8 @@ std::optional<std::vector<double>> read_home(MapReader& map, const std::vector<J
 
 /// In what a user's file says: degrees or metres.
 std::string in_file_units(double value, bool revolute) {
-  return revolute ? fmt::format("{:.6g} deg", value * 180 / std::numbers::pi)
-                  : fmt::format("{:.6g} m", value);
+  return revolute ? fmt::format("{:.10g} deg", value * 180 / std::numbers::pi)
+                  : fmt::format("{:.10g} m", value);
 }
 
 /// "'home_deg': j1 = 200 deg is outside of -170 deg to 170 deg".

@@ -285,6 +285,8 @@ TEST(RobotFile, AsksForTheLimitsOfIndependentJointsOnly) {
 TEST(RobotFile, RefusesAHomeThatTheRobotCannotTake) {
   EXPECT_THAT(problems_in(with(kGoodJoint, kGoodFrames + "\nhome_deg: [0, 91]")),
               ElementsAre("arm.yaml:7:11: 'home_deg': b = 91 deg is outside of -90 deg to 90 deg"));
+  EXPECT_THAT(problems_in(with(kGoodJoint, kGoodFrames + "\nhome_deg: [0, 90.00001]")),
+              ElementsAre(HasSubstr("b = 90.00001 deg is outside of -90 deg to 90 deg")));
   EXPECT_THAT(
       problems_in(with("{name: b, coupled: {to: a}}", kGoodFrames + "\nhome: [0, 0.5]")),
       ElementsAre("arm.yaml:7:7: 'home': b = 0.5 contradicts its coupling to a, which makes it 0"));

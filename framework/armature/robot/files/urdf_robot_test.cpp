@@ -145,7 +145,7 @@ TEST_F(UrdfFile, IsJudgedWithTheLimitsThatARobotFileStatesInPlaceOfItsOwn) {
   const RobotModel locked = robot(head + "joints: [{name: j2, locked: true}]\nhome: [0.5, 0]\n");
   EXPECT_EQ(locked.dof(), 1);
   EXPECT_THAT(said("joints: [{name: j2, locked: true}]\nhome: [0, 0.5]\n"),
-              ElementsAre(HasSubstr("j2 = 28.6479 deg is outside of 0 deg to 0 deg")));
+              ElementsAre(HasSubstr("j2 = 28.64788976 deg is outside of 0 deg to 0 deg")));
 }
 
 TEST_F(UrdfFile, SaysWhichAxisAndWhichNumberIsNone) {

@@ -24,6 +24,16 @@ const std::string& joint_name(const RobotModel& model, int i) {
 
 const char* unit(const RobotModel& model, int i) { return model.is_revolute(i) ? "rad" : "m"; }
 
+/// Digits behind the point with which a value reads otherwise than its limit: four, or as many as
+/// it takes.
+int digits_between(double value, double limit) {
+  constexpr int kMost = 12;
+  int digits = 4;
+  double last = 1e-4;
+  while (digits < kMost && std::abs(value - limit) < last) last /= 10, ++digits;
+  return digits;
+}
+
 bool meet(const Quintic::End& from, const Quintic::End& to) {
   return std::abs(to.q - from.q) <= kJumpPosition && std::abs(to.v - from.v) <= kJumpVelocity &&
          std::abs(to.a - from.a) <= kJumpAcceleration;
@@ -64,13 +74,15 @@ ReasonText broken_limit(const Stretch& stretch, const RobotModel& model,
                         const MotionLimits& limits) {
   const int i = stretch.joint;
   // "joint j3 would need 1.2 rad/s between 0.10 and 0.25 s, its limit is 1"
-  const auto would = [&](const char* verb, double value, const char* per) {
-    return ReasonText::format("joint {} would {} {:.4f} {}{} between {:.2f} and {:.2f} s",
-                              joint_name(model, i), verb, value, unit(model, i), per, stretch.from,
-                              stretch.to);
+  const auto would = [&](const char* verb, double value, const char* per, int digits) {
+    return ReasonText::format("joint {} would {} {:.{}f} {}{} between {:.2f} and {:.2f} s",
+                              joint_name(model, i), verb, value, digits, unit(model, i), per,
+                              stretch.from, stretch.to);
   };
-  const auto beyond = [](const ReasonText& what, double limit) {
-    return ReasonText::format("{}, its limit is {:.4f}", what.view(), limit);
+  const auto need = [&](double value, const char* per, double limit) {
+    const int digits = digits_between(value, limit);
+    return ReasonText::format("{}, its limit is {:.{}f}", would("need", value, per, digits).view(),
+                              limit, digits);
   };
   const double duration_s = stretch.to - stretch.from;
   const QuinticPeaks peak = peaks(stretch.quintic, duration_s);
@@ -83,16 +95,18 @@ ReasonText broken_limit(const Stretch& stretch, const RobotModel& model,
   QuinticRange q = farthest(stretch.quintic, duration_s, peak.velocity);
   if (!within(q)) q = range(stretch.quintic, duration_s);
   if (!within(q)) {
-    const double far = q.highest > upper ? q.highest : q.lowest;
-    return ReasonText::format("{}, its limits are {:.4f} and {:.4f} {}",
-                              would("reach", far, "").view(), model.lower()[i], model.upper()[i],
-                              unit(model, i));
+    const bool above = q.highest > upper;
+    const double far = above ? q.highest : q.lowest;
+    const int digits = digits_between(far, above ? model.upper()[i] : model.lower()[i]);
+    return ReasonText::format("{}, its limits are {:.{}f} and {:.{}f} {}",
+                              would("reach", far, "", digits).view(), model.lower()[i], digits,
+                              model.upper()[i], digits, unit(model, i));
   }
   if (!(peak.velocity <= limits.max_velocity[i] * (1 + kRateSlack))) {
-    return beyond(would("need", peak.velocity, "/s"), limits.max_velocity[i]);
+    return need(peak.velocity, "/s", limits.max_velocity[i]);
   }
   if (!(peak.acceleration <= limits.max_acceleration[i] * (1 + kRateSlack))) {
-    return beyond(would("need", peak.acceleration, "/s2"), limits.max_acceleration[i]);
+    return need(peak.acceleration, "/s2", limits.max_acceleration[i]);
   }
   return {};
 }
@@ -169,9 +183,10 @@ ReasonText missed_goal(const TrajectoryView& trajectory, const RobotModel& model
   const JointVector end = trajectory.at(trajectory.end()).q;
   for (int i = 0; i < model.dof(); ++i) {
     if (std::abs(end[i] - goal[i]) <= kJumpPosition) continue;
+    const int digits = digits_between(end[i], goal[i]);
     return ReasonText::format(
-        "the trajectory ends elsewhere than its path: joint {} at {:.4f} {} instead of {:.4f}",
-        joint_name(model, i), end[i], unit(model, i), goal[i]);
+        "the trajectory ends elsewhere than its path: joint {} at {:.{}f} {} instead of {:.{}f}",
+        joint_name(model, i), end[i], digits, unit(model, i), goal[i], digits);
   }
   return {};
 }

@@ -198,6 +198,27 @@ TEST_F(TrajectoryCheck, ASpikeThatNoCoarseSamplingSeesIsFound) {
   EXPECT_TRUE(trajectory_defect(trajectory.view(), wide, limits_, from, kTakeOver).empty());
 }
 
+TEST_F(TrajectoryCheck, WhatIsBeyondALimitByLittleReadsOtherwiseThanTheLimit) {
+  JointState from = resting(1.9, 0);
+  from.v[0] = 0.3;
+  const Trajectory trajectory = of_one_piece(from, resting(1.9, 0), 2);
+  std::vector<Joint> joints = model_.joints();
+  joints[0].upper = 2.018516;
+  const RobotModel tight{{"tight", model_.convention(), joints, model_.frames(), FrameId{0},
+                          std::nullopt, std::nullopt}};
+  EXPECT_EQ(trajectory_defect(trajectory.view(), tight, limits_, from, kTakeOver).view(),
+            "joint hinge would reach 2.018519 rad between 0.00 and 2.00 s, its limits are "
+            "-2.000000 and 2.018516 rad");
+  limits_.max_velocity.setConstant(1e-5);
+  EXPECT_EQ(defect(of_one_piece(resting(0, 0), resting(0, 1e-4), 12), resting(0, 0)),
+            "joint slide would need 0.000016 m/s between 0.00 and 12.00 s, its limit is 0.000010");
+  EXPECT_EQ(missed_goal(of_one_piece(resting(0, 0), resting(1, -1), 3).view(), model_,
+                        joint_vector({1.000003, -1}))
+                .view(),
+            "the trajectory ends elsewhere than its path: joint hinge at 1.000000 rad instead of "
+            "1.000003");
+}
+
 TEST_F(TrajectoryCheck, AJointThatStandsBeyondALimitMayComeBackButGoNoFurther) {
   EXPECT_EQ(defect(of_one_piece(resting(2.1, 0), resting(1.5, 0), 3), resting(2.1, 0)), "");
   EXPECT_EQ(defect(of_one_piece(resting(2.1, 0), resting(2.2, 0), 3), resting(2.1, 0)),

@@ -112,7 +112,17 @@ class ChainReader {
     return way;
   }
 
+  void check_origin(const urdf::Joint& joint) {
+    const auto& [x, y, z] = joint.parent_to_joint_origin_transform.position;
+    if (std::max({std::abs(x), std::abs(y), std::abs(z)}) <= kFarthest_m) return;
+    problem(joint,
+            fmt::format("has its origin at {:g}, {:g}, {:g}, farther than {:g} m; is it told "
+                        "in another unit?",
+                        x, y, z, kFarthest_m));
+  }
+
   void add(const urdf::Joint& joint) {
+    check_origin(joint);
     since_axis_ = since_axis_ * transform_of(joint.parent_to_joint_origin_transform);
     if (joint.type == urdf::Joint::FLOATING || joint.type == urdf::Joint::PLANAR)
       problem(joint, fmt::format("is {}, which is no joint of an arm; name a base behind it",

@@ -12,6 +12,9 @@
 
 namespace armature {
 
+/// Larger ones no robot has, as in a robot file (config/key.cpp): they are told in another unit.
+inline constexpr double kFarthest_m = 100, kWidest_deg = 1e6;
+
 /// What lies between two links of a URDF file; fixed joints are folded into the links.
 struct UrdfChain {
   struct Link {

@@ -45,6 +45,16 @@ class Complaints final : public console_bridge::OutputHandler {
   }
 };
 
+/// As much of what urdfdom says as a screen holds: it repeats what is written, however long that
+/// is.
+std::string cut(const std::string& text) {
+  constexpr std::size_t kLongest = 200;
+  if (text.size() <= kLongest) return text;
+  std::size_t end = kLongest;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
+  return text.substr(0, end) + "...";
+}
+
 /// Where the document type before the first element begins, if it declares something itself; npos:
 /// nowhere.
 std::size_t find_declarations(std::string_view text) {
@@ -129,7 +139,9 @@ UrdfDocument UrdfDocument::load(const std::filesystem::path& file) {
         all.find('[' + name + ']') != all.npos || all.find('\'' + name + '\'') != all.npos;
     if (named && (place.line == 0 || origin.line < place.line)) place = origin;
   }
-  throw ConfigError{{{place, "not a robot description that urdfdom reads: " + all}}};
+  std::ranges::transform(complaints.texts, complaints.texts.begin(), cut);
+  throw ConfigError{{{place, fmt::format("not a robot description that urdfdom reads: {}",
+                                         fmt::join(complaints.texts, "; "))}}};
 }
 
 Origin UrdfDocument::joint(const std::string& name) const {

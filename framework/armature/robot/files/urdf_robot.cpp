@@ -4,8 +4,12 @@
 #include <fmt/format.h>
 #include <urdf_model/model.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "armature/robot/files/urdf_chain.hpp"
 #include "armature/robot/model/denavit_hartenberg.hpp"
+#include "armature/values/angles.hpp"
 
 namespace armature {
 namespace {
@@ -107,6 +111,14 @@ void check_urdf_limits(const UrdfArm& arm, const std::vector<Joint>& joints,
     const bool same_range = joint.lower == own.lower && joint.upper == own.upper;
     if (same_range && !(own.lower < own.upper)) {
       note(fmt::format("has no room to move: its limits are {:g} to {:g}", own.lower, own.upper),
+           slides ? "limits_m: [0, 1]" : "limits_deg: [-90, 90]");
+    }
+    const double farthest = slides ? kFarthest_m : kWidest_deg * kRadPerDegree;
+    const bool is_far = std::max(std::abs(own.lower), std::abs(own.upper)) > farthest;
+    if (same_range && is_far && own.lower < own.upper && std::isfinite(own.upper)) {
+      const std::string bound = slides ? fmt::format("m, farther than {:g} m", kFarthest_m)
+                                       : fmt::format("rad, more than {:g} degrees", kWidest_deg);
+      note(fmt::format("has limits of {:g} to {:g} {}", own.lower, own.upper, bound),
            slides ? "limits_m: [0, 1]" : "limits_deg: [-90, 90]");
     }
     if (joint.max_velocity == own.max_velocity && own.max_velocity < 0) {

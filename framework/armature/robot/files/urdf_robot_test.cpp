@@ -160,6 +160,37 @@ TEST_F(UrdfFile, SaysWhichAxisAndWhichNumberIsNone) {
   }
 }
 
+// As in a robot file: millimetres, or degrees where radians are.
+TEST_F(UrdfFile, WithALengthOrALimitThatNoRobotHasIsRefused) {
+  EXPECT_THAT(problems_of(arm("revolute", kLimit + "<origin xyz='0 -300 0.5'/>")),
+              ElementsAre("arm.urdf:3:1: joint 'j2' has its origin at 0, -300, 0.5, farther than "
+                          "100 m; is it told in another unit?"));
+  EXPECT_THAT(problems_of(arm("fixed", "<origin xyz='1e308 0 0'/>")),
+              ElementsAre(HasSubstr("arm.urdf:3:1: joint 'j2' has its origin at 1e+308, 0, 0")));
+  EXPECT_THAT(
+      problems_of(arm("prismatic", "<limit lower='0' upper='400' effort='1' velocity='2'/>")),
+      ElementsAre("arm.urdf:3:1: joint 'j2' has limits of 0 to 400 m, farther than 100 m; "
+                  "correct it there, or in a robot file: joints: [{name: j2, limits_m: [0, "
+                  "1]}]"));
+  const std::string endless =
+      arm("revolute", "<limit lower='-1e308' upper='1' effort='1' velocity='2'/>");
+  EXPECT_THAT(problems_of(endless),
+              ElementsAre(HasSubstr("has limits of -1e+308 to 1 rad, more than 1e+06 degrees; ")));
+  EXPECT_EQ(robot("armature_robot: 1\nname: mine\nurdf: arm.urdf\ntip: hand\n"
+                  "joints: [{name: j2, limits_deg: [-180, 180]}]\n")
+                .upper()[1],
+            std::numbers::pi);
+  EXPECT_THAT(problems_of(arm("continuous", "<origin xyz='0 -100 0'/>")), ElementsAre());
+}
+
+TEST_F(UrdfFile, IsQuotedInPartsThatAScreenHolds) {
+  const std::string long_number(1'000'000, '1');
+  const auto problems =
+      problems_of(arm("revolute", kLimit + "<origin xyz='0 0 " + long_number + "x'/>"));
+  ASSERT_THAT(problems, ElementsAre(HasSubstr("arm.urdf:3:1: not a robot description that ")));
+  EXPECT_LT(problems[0].size(), 1000u);
+}
+
 TEST_F(UrdfFile, SaysWhatUrdfdomWouldDropAndTakeADefaultFor) {
   const auto said = [&](const std::string& inside) {
     return problems_of(arm("revolute", kLimit + "\n" + inside));

@@ -19,6 +19,7 @@ std::optional<Parent> ParentNames::find(const std::string& name) const {
 
 void ParentNames::refuse(const config::Node& named, const std::vector<std::string>& more,
                          config::Problems& problems) const {
+  if (is_unread) return;
   const std::string& name = named.text();
   const auto why = no_frames.find(name);
   if (why != no_frames.end()) {

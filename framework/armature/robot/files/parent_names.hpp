@@ -29,6 +29,8 @@ struct ParentNames {
   bool is_urdf = false;
   /// With a URDF file, by a name in it that is no frame: why, and what to name.
   std::map<std::string, std::string> no_frames = {};
+  /// Joints or links could not be read, which is told: nobody knows what is no parent.
+  bool is_unread = false;
 
   std::optional<Parent> find(const std::string& name) const;
   /// Notes at `named` why that is no parent; `more` are frames that could have been meant, too.

@@ -153,5 +153,23 @@ TEST_F(UrdfParents, TheToolIsTheTipUnlessALinkOrAFrameHasThatName) {
   EXPECT_FALSE(with("").find_frame("tool"));
 }
 
+// What is wrong is the URDF file, or the list of joints: of every parent it was said that there is
+// no such link, too.
+TEST_F(UrdfParents, AreNotJudgedByLinksThatCouldNotBeRead) {
+  const std::string bodies =
+      "frames: {eye: {parent: palm}}\ncapsules: {arm: {parent: elbow" + kAt + "}\n";
+  EXPECT_THAT(problems_with(bodies), ElementsAre());
+  const auto said = [&](const std::string& head) {
+    return problems_when([&] { robot(head + bodies); });
+  };
+  const std::string head = "armature_robot: 1\nname: mine\n";
+  EXPECT_THAT(said(head + "urdf: arm.urdf\ntip: hadn\n"),
+              ElementsAre(HasSubstr("there is no link 'hadn'")));
+  EXPECT_THAT(said(head + "urdf: arm.urdf\n"), ElementsAre(HasSubstr("missing key 'tip'")));
+  EXPECT_THAT(said(head + "joints: 6\n"), ElementsAre(HasSubstr("must be a list of joints")));
+  write("arm.urdf", "<robot name='arm'><link name='foot'></robot>\n");
+  EXPECT_THAT(problems_with(bodies), ElementsAre(HasSubstr("arm.urdf:1:1: not XML")));
+}
+
 }  // namespace
 }  // namespace armature

@@ -132,6 +132,7 @@ std::optional<FrameId> read_rows(MapReader& map, RobotParts& parts, ParentNames&
   parts.convention = modified ? RobotModel::Convention::modified : RobotModel::Convention::standard;
   if (const Node* list = map.node("joints")) parts.joints = read_joints(*list, problems);
   parents.joints = parts.joints;
+  parents.is_unread = parts.joints.empty();
   if (const Node* frames = map.node("frames"))
     parts.frames = read_frames(*frames, parents, problems);
   parents.frames = parts.frames;
@@ -161,14 +162,15 @@ std::optional<FrameId> read_urdf(const Node& file, MapReader& map, RobotParts& p
   const Node* limits = map.node("joints");
   const Node* more = map.node("frames");
   parts.convention = RobotModel::Convention::modified;
+  parents.is_unread = true;
   if (tip.name.empty()) return std::nullopt;  // noted as missing
   UrdfArm arm = read_urdf_arm(config::folder_of(file.origin()) / file.text(), base, tip, problems);
   parts.joints = arm.joints;
   parts.frames = std::move(arm.frames);
   if (arm.tool && !(more && more->find("tool"))) parts.frames.push_back(*arm.tool);
+  if (parts.joints.empty()) return arm.tip;
   parents = {
       .joints = {}, .frames = parts.frames, .is_urdf = true, .no_frames = std::move(arm.no_frames)};
-  if (parts.joints.empty()) return arm.tip;
   if (limits) read_other_limits(*limits, parts.joints, problems);
   check_urdf_limits(arm, parts.joints, problems);
   check_speeds(parts.joints, map);

@@ -240,6 +240,21 @@ TEST_F(FoxgloveBridgeTest, RefusesWhatIsNestedDeeply) {
       << "the bridge goes on";
 }
 
+TEST_F(FoxgloveBridgeTest, ALongListInWhatIsSaidHoldsNobodyUp) {
+  std::string list = "{}";
+  for (int i = 1; i < 300'000; ++i) list += ",{}";
+  const auto begin = std::chrono::steady_clock::now();
+  const std::string refused = answer_to(R"({"op": "subscribe", "subscriptions": [)" + list + "]}");
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds{5});
+  EXPECT_EQ(refused.substr(0, 11), "[json.excep") << refused;
+}
+
+TEST_F(FoxgloveBridgeTest, ABracketInATextIsNoLevel) {
+  const std::string brackets(20, '[');
+  EXPECT_EQ(answer_to(json{{"op", "\"" + brackets}}.dump()),
+            "'\"" + brackets + "' is not done here: a monitor only shows");
+}
+
 TEST_F(FoxgloveBridgeTest, QuotesNoListForANumber) {
   const std::string range = "an id is a whole number from 0 to 4294967295, not an ";
   EXPECT_EQ(answer_to(R"({"op": "unsubscribe", "subscriptionIds": [[[1]]]})"), range + "array");

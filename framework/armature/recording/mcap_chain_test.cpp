@@ -323,6 +323,29 @@ TEST(Summary, IsNotEnoughWithoutTheCountsAndChannelsThatAWriterMayLeaveOut) {
   })) << "no counts by channel";
 }
 
+TEST(Summary, ThatNamesOneMetadataAgainAndAgainIsNotBelieved) {
+  constexpr int kTimes = 100;
+  const RecordingFile file{"summary"};
+  {
+    McapWriter writer{file.path(), {.chain = false}};
+    write_all_but_the_end(writer, 20);
+    writer.add(McapMetadata{.name = "long", .values = {{"text", std::string(100'000, 'x')}}});
+    writer.close();
+  }
+  const auto repeated = [](int times) {
+    return [times](mcap::Op op, const std::string& record) {
+      std::string records = record;
+      for (int i = 1; i < times && op == mcap::Op::metadata_index; ++i) records += record;
+      return records;
+    };
+  };
+  const std::string whole = file.bytes();
+  file.replace(with_summary(whole, repeated(1)));
+  ASSERT_TRUE(read_summary(file.path()));
+  file.replace(with_summary(whole, repeated(kTimes)));
+  EXPECT_FALSE(read_summary(file.path())) << "it would take a hundred times the memory";
+}
+
 TEST(Summary, IsNotBelievedWhenAByteOfItIsChangedOrMissing) {
   const RecordingFile file{"summary"};
   McapWriter writer{file.path(), {.chunk_bytes = 2048}};

@@ -7,6 +7,7 @@
 
 #include <new>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 #include "armature/recording/mapped_file.hpp"
@@ -22,6 +23,15 @@ constexpr std::uint64_t kLargestChunk = std::uint64_t{1} << 30;  // [byte], unpa
 std::uint32_t checksum_of(std::span<const std::byte> bytes) {
   return static_cast<std::uint32_t>(
       crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
+}
+
+bool is_same(const McapSchema& a, const McapSchema& b) {
+  return std::tie(a.name, a.encoding, a.data) == std::tie(b.name, b.encoding, b.data);
+}
+
+bool is_same(const McapChannel& a, const McapChannel& b) {
+  return std::tie(a.schema_id, a.topic, a.message_encoding, a.metadata) ==
+         std::tie(b.schema_id, b.topic, b.message_encoding, b.metadata);
 }
 
 }  // namespace
@@ -251,7 +261,12 @@ void McapReader::read_metadata(McapCursor record, std::uint64_t at) {
 void McapReader::add_schema(McapCursor record, std::uint64_t at) {
   McapSchema schema = read_schema(record);
   if (!record.ok()) return note(fmt::format("a schema at byte {} is broken", at));
-  schemas_[schema.id] = std::move(schema);
+  const auto [place, is_new] = schemas_.try_emplace(schema.id, schema);
+  if (is_new || is_same(place->second, schema)) return;
+  note(
+      fmt::format("schema {} is told twice: at byte {} it is '{}', and before it was '{}', which "
+                  "counts",
+                  schema.id, at, schema.name, place->second.name));
 }
 
 void McapReader::add_channel(McapCursor record, std::uint64_t at) {
@@ -259,7 +274,12 @@ void McapReader::add_channel(McapCursor record, std::uint64_t at) {
   if (!record.ok() || !record.left().empty()) {
     return note(fmt::format("a channel at byte {} is broken, or has a map of wrong length", at));
   }
-  channels_[channel.id] = std::move(channel);
+  const auto [place, is_new] = channels_.try_emplace(channel.id, channel);
+  if (is_new || is_same(place->second, channel)) return;
+  note(
+      fmt::format("channel {} is told twice: at byte {} it is '{}', and before it was '{}', which "
+                  "counts",
+                  channel.id, at, channel.topic, place->second.topic));
 }
 
 void McapReader::check_end() {

@@ -94,15 +94,19 @@ std::optional<ChainRecord> link_in(const McapRecord& record) {
   return ChainRecord::parse(record.body.left());
 }
 
-/// The metadata stands elsewhere in the file.
-void read_metadata_index(McapCursor record, View file, McapSummary& summary) {
+/// The metadata stands elsewhere in the file. `left`: what all that follow may have together
+/// [byte]; false when it has more.
+bool read_metadata_index(McapCursor record, View file, std::uint64_t& left, McapSummary& summary) {
   const auto at = record.number<std::uint64_t>();
-  if (!record.ok() || at > file.size()) return;
+  if (!record.ok() || at > file.size()) return true;
   McapRecord metadata = next_record(file.subspan(at));
-  if (metadata.op != Op::metadata || metadata.size == 0) return;
+  if (metadata.op != Op::metadata || metadata.size == 0) return true;
+  if (metadata.size > left) return false;
+  left -= metadata.size;
   std::string name = metadata.body.text();
   auto values = metadata.body.map();
   if (metadata.body.ok()) summary.metadata.push_back({std::move(name), std::move(values)});
+  return true;
 }
 
 }  // namespace
@@ -122,6 +126,7 @@ std::optional<McapSummary> read_summary(const std::filesystem::path& file) {
     summary.library = header.body.text();
   }
   std::optional<Statistics> statistics;
+  std::uint64_t left_of_metadata = bytes.size();
   for (View left = *records; !left.empty();) {
     McapRecord record = next_record(left);
     if (record.size == 0) return std::nullopt;
@@ -145,7 +150,12 @@ std::optional<McapSummary> read_summary(const std::filesystem::path& file) {
       case Op::statistics: statistics = read_statistics(record.body, summary); break;
       case Op::chunk_index: read_chunk_index(record.body, summary); break;
       case Op::attachment_index: read_attachment_index(record.body, summary); break;
-      case Op::metadata_index: read_metadata_index(record.body, bytes, summary); break;
+      case Op::metadata_index:
+        // One that is named again and again would take any memory.
+        if (!read_metadata_index(record.body, bytes, left_of_metadata, summary)) {
+          return std::nullopt;
+        }
+        break;
       default: break;
     }
   }

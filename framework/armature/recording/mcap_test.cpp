@@ -269,6 +269,27 @@ TEST(McapReader, TellsAMapOfWrongLength) {
   }
 }
 
+TEST(McapReader, KeepsToWhatAChannelOrASchemaWasFirstSaidToBe) {
+  const std::string chunk = RawMcap::chunk(5, 7, kChannel + RawMcap::message(2, 6));
+  EXPECT_EQ(problems_of(chunk + chunk), Problems{}) << "said twice alike";
+  const RecordingFile file{"raw"};
+  file.replace(RawMcap::file(
+      chunk + RawMcap::chunk(5, 7, RawMcap::channel(2, 1, kNoMap, "/c") + RawMcap::message(2, 6))));
+  McapReader reader{file.path()};
+  int messages = 0;
+  for (; const auto message = reader.next(); ++messages) EXPECT_EQ(message->channel->topic, "/b");
+  EXPECT_EQ(messages, 2);
+  EXPECT_EQ(reader.problems(), Problems{"channel 2 is told twice: at byte 189 it is '/c', and "
+                                        "before it was '/b', which counts"});
+  EXPECT_EQ(
+      problems_of(RawMcap::schema(1) +
+                  RawMcap::record(RawMcap::kSchema,
+                                  RawMcap::number(std::uint16_t{1}) + RawMcap::text("a/msg/C") +
+                                      RawMcap::text("ros2msg") + RawMcap::text("bool data"))),
+      Problems{"schema 1 is told twice: at byte 75 it is 'a/msg/C', and before it was "
+               "'a/msg/B', which counts"});
+}
+
 TEST(McapReader, RefusesWhatIsNoRecording) {
   EXPECT_THROW(McapReader{ARMATURE_SOURCE_DIR "/README.md"}, std::runtime_error);
   EXPECT_THROW(McapReader{"/dev/null"}, std::runtime_error);

@@ -123,8 +123,9 @@ class RawMcap {
   static std::string schema(std::uint16_t id) {
     return record(kSchema, number(id) + text("a/msg/B") + text("ros2msg") + text("bool data"));
   }
-  static std::string channel(std::uint16_t id, std::uint16_t schema, const std::string& map) {
-    return record(kChannel, number(id) + number(schema) + text("/b") + text("cdr") + map);
+  static std::string channel(std::uint16_t id, std::uint16_t schema, const std::string& map,
+                             const std::string& topic = "/b") {
+    return record(kChannel, number(id) + number(schema) + text(topic) + text("cdr") + map);
   }
   static std::string message(std::uint16_t channel, std::uint64_t log_time) {
     return record(kMessage, number(channel) + number(std::uint32_t{1}) + number(log_time) +

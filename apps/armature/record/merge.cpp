@@ -19,6 +19,7 @@
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
 #include "standard_output.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -180,7 +181,7 @@ int merge_recordings(const std::vector<std::filesystem::path>& parts,
   const HeldFile older = hold_to_replace(out, force);
   const JoinedRecording joined = join_recordings(parts, out);
   for (const std::string& problem : joined.problems) {
-    fmt::print(stderr, "armature: {}\n", problem);
+    fmt::print(stderr, "armature: {}\n", terminal_text(problem));
   }
   print_out("{}: {} messages of {} processes, {}\n", out.string(), joined.messages,
             joined.processes, megabytes(joined.bytes));

@@ -12,6 +12,7 @@
 #include "record/message_copy.hpp"
 #include "record/record.hpp"
 #include "standard_output.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -51,7 +52,7 @@ int repair_recording(const std::filesystem::path& cut, const std::filesystem::pa
   writer.close();
   draft.give_name();
   for (const std::string& problem : reader.problems()) {
-    fmt::print(stderr, "armature: '{}': {}\n", cut.string(), problem);
+    fmt::print(stderr, "armature: '{}': {}\n", cut.string(), terminal_text(problem));
   }
   print_out("{}: {} messages{}\n", whole.string(), writer.messages(),
             reader.problems().empty() ? ", all of a file that was whole" : "");

@@ -259,6 +259,21 @@ TEST(DamagedRecording, WithAnyNameIsRepairedByTheLineThatIsTold) {
   EXPECT_THAT(told, HasSubstr("-the patient'\\''s $HOME.mcap' -o whole.mcap"));
 }
 
+TEST(DamagedRecording, WhoseNamesATerminalWouldObeyIsRepairedWithoutThat) {
+  const RecordingFile file{"obeyed"}, repaired{"repaired"};
+  const std::string no_map = RawMcap::number(std::uint32_t{0});
+  file.replace(RawMcap::file(RawMcap::chunk(
+      5, 7,
+      RawMcap::schema(1) + RawMcap::channel(2, 1, no_map, "/\033[31m") + RawMcap::message(2, 9))));
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(repair_recording(file.path(), repaired.path(), true), kOk);
+  testing::internal::GetCapturedStdout();
+  const std::string told = testing::internal::GetCapturedStderr();
+  EXPECT_THAT(told, HasSubstr("of '/\\x1b[31m', has the log time 9 ns"));
+  EXPECT_THAT(told, Not(HasSubstr("\033")));
+}
+
 TEST(DamagedRecording, OfWhichNothingIsLeftIsNotSentToBeRepaired) {
   const RecordingFile file{"damaged"};
   {

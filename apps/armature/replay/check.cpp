@@ -23,6 +23,7 @@
 #include "replay/replay.hpp"
 #include "replay/replayed_process.hpp"
 #include "standard_output.hpp"
+#include "terminal_text.hpp"
 #include "watch/outsider.hpp"
 
 namespace armature {
@@ -346,7 +347,7 @@ int check_recording(const ReplayOptions& options) {
   const Time start = monotonic_now();
   std::set<std::string> told;  // of a file with several processes, once
   const auto tell = [&](const std::string& text) {
-    if (told.insert(text).second) fmt::print(stderr, "armature: {}\n", text);
+    if (told.insert(text).second) fmt::print(stderr, "armature: {}\n", terminal_text(text));
   };
   ExchangedSamples exchanged;  // of a file that was joined
   for (const std::filesystem::path& file : options.files) {

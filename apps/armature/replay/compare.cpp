@@ -22,6 +22,7 @@
 #include "replay/watched_ik.hpp"
 #include "shell_word.hpp"
 #include "standard_output.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -406,7 +407,7 @@ int compare_with_recording(const ReplayOptions& options) {
   bool any = false, is_complete = true;
   std::set<std::string> told;  // of a file with several processes, once
   const auto tell = [&](const std::string& text) {
-    if (told.insert(text).second) fmt::print(stderr, "armature: {}\n", text);
+    if (told.insert(text).second) fmt::print(stderr, "armature: {}\n", terminal_text(text));
   };
   for (const std::filesystem::path& file : options.files) {
     for (const std::string& process : recorded_processes(file)) {

@@ -27,6 +27,7 @@
 #include "exit_code.hpp"
 #include "replay/recorded_qos.hpp"
 #include "standard_output.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -214,13 +215,15 @@ int publish_recording(const PublishOptions& options) {
   do {
     player.play();
   } while (options.loop && player.messages() > 0 && !left() && !player.is_over());
-  for (const std::string& text : player.left_out()) fmt::print(stderr, "armature: {}\n", text);
+  for (const std::string& text : player.left_out()) {
+    fmt::print(stderr, "armature: {}\n", terminal_text(text));
+  }
   for (const auto& [topic, count] : player.broken()) {
     fmt::print(stderr, "armature: {} messages of {} are not what their type says\n", count,
-               config::in_quotes(topic));
+               terminal_text(config::in_quotes(topic)));
   }
   for (const std::string& problem : player.problems()) {
-    fmt::print(stderr, "armature: '{}': {}\n", options.file.string(), problem);
+    fmt::print(stderr, "armature: '{}': {}\n", options.file.string(), terminal_text(problem));
   }
   if (player.messages() == 0 && player.left_out().empty() && player.broken().empty() && !left()) {
     fmt::print(stderr, "armature: '{}' has no messages to be published\n", options.file.string());

@@ -40,7 +40,7 @@ std::optional<std::string> behind(std::string_view beginning, const std::string&
 }  // namespace
 
 RecordedRun::RecordedRun(const std::filesystem::path& file, std::string process)
-    : file_{file}, process_{std::move(process)}, reader_{file} {
+    : file_{file}, process_{std::move(process)}, reader_{file, true} {
   read_metadata(file);
   if (!deployment_.empty() && !components_.empty()) return;
   throw std::runtime_error(fmt::format(
@@ -133,6 +133,11 @@ DeploymentConfig RecordedRun::read_config(const PluginRegistry& plugins,
       documents.emplace(document, config::parse_text(text, file->second));
     }
   }
+  if (root.kind() == config::Node::Kind::null) {
+    throw std::runtime_error(
+        fmt::format("'{}' does not hold the file of its deployment: nothing of it can be repeated",
+                    file_.string()));
+  }
   config::Problems problems;
   DeploymentConfig config =
       read_deployment(config::with_assignments(std::move(root), assignments, &notes), plugins,
@@ -157,6 +162,7 @@ std::optional<msg::Activation> RecordedRun::next() {
     throw std::runtime_error(
         fmt::format("'{}' holds activations of another version", file_.string()));
   }
+  is_read_to_end_ = true;
   return std::nullopt;
 }
 
@@ -187,6 +193,10 @@ std::vector<std::string> RecordedRun::problems() const {
     if (std::ranges::find(problems, problem) == problems.end()) problems.push_back(problem);
   };
   for (const std::string& problem : reader_.problems()) add(problem);
+  const McapChain chain = is_read_to_end_ ? reader_.chain() : McapChain{};
+  for (const std::string& change : chain.changes) {
+    add("it was changed after it was written: " + change);
+  }
   // Of what was joined, the file is whole where the part was not.
   for (const std::string& repair : repairs_told_by(reader_.metadata(), process_)) add(repair);
   const auto end = std::ranges::find_if(reader_.metadata(), [&](const McapMetadata& metadata) {

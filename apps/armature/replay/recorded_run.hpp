@@ -40,7 +40,8 @@ class RecordedRun {
   /// The hashes of the plugins' libraries, by plugin.
   const std::map<std::string, std::string>& libraries() const { return libraries_; }
   const std::map<std::string, RecordedPorts>& components() const { return components_; }
-  /// The deployment that was recorded, with `--set` assignments made. Throws ConfigError.
+  /// The deployment that was recorded, with `--set` assignments made. Throws ConfigError, and
+  /// std::runtime_error where the recording does not hold its file.
   DeploymentConfig read_config(const PluginRegistry& plugins,
                                const std::vector<std::string>& assignments,
                                std::vector<std::string>& notes) const;
@@ -87,6 +88,7 @@ class RecordedRun {
   std::uint32_t last_activation_ = 0;
   std::vector<std::string> problems_;
   McapReader reader_;
+  bool is_read_to_end_ = false;
   std::map<std::uint16_t, std::uint32_t> writers_;       // by channel
   std::map<std::uint32_t, std::deque<Sample>> samples_;  // by writer
 };

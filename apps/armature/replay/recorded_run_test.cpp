@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/recorded_run.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/stamp.hpp"
 #include "armature/recording/mcap_writer.hpp"
 #include "armature/recording/recorded_processes.hpp"
+#include "armature/recording/recording_test.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 #include "armature/values/temporary_folder.hpp"
 
@@ -66,6 +68,30 @@ TEST(RecordedRun, HoldsNoMoreThanTheCallsOfItsComponentsNeed) {
   ASSERT_TRUE(run.next());
   EXPECT_FALSE(run.sample(kWriter, 1));
   EXPECT_TRUE(run.sample(kWriter, kSamples));
+}
+
+TEST(RecordedRun, ThatWasChangedAfterItWasWrittenSaysSoThoughNoChecksumTells) {
+  const RecordingFile file{"changed"};
+  write_long_call(file.path());
+  const auto problems = [&] {
+    RecordedRun run{file.path(), "main"};
+    while (run.next()) continue;
+    return run.problems();
+  };
+  const auto told = [](const std::string& where) {
+    return testing::Contains(
+        testing::StartsWith("it was changed after it was written: " + where + ", within"));
+  };
+  EXPECT_THAT(problems(), testing::Not(told("chunk 1")));
+  std::string bytes = file.bytes();
+  constexpr std::size_t kHead = 9, kChecksumOfChunk = kHead + 24, kChecksumBytes = 4;
+  // Zero stands for none, as some programs write it.
+  bytes.replace(places_of(mcap::Op::chunk, bytes).front() + kChecksumOfChunk, kChecksumBytes,
+                kChecksumBytes, '\0');
+  bytes.replace(places_of(mcap::Op::data_end, bytes).front() + kHead, kChecksumBytes,
+                kChecksumBytes, '\0');
+  file.replace(bytes);
+  EXPECT_THAT(problems(), testing::AllOf(told("chunk 1"), told("the summary")));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "exit_code.hpp"
 #include "monitor/monitor.hpp"
 #include "replay/recorded_topics.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 
@@ -17,7 +18,7 @@ int show_recording(const ShowOptions& options) {
                             .from = seconds(options.from_s),
                             .loop = options.loop}};
   for (const std::string& problem : recording.problems()) {
-    fmt::print(stderr, "armature: '{}': {}\n", options.file.string(), problem);
+    fmt::print(stderr, "armature: '{}': {}\n", options.file.string(), terminal_text(problem));
   }
   const Time end = monotonic_now() + seconds(options.timeout_s);
   serve_browsers(recording, options.server, &recording,

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string_view>
+
 #include "picture_files_test.hpp"
 #include "tests/refusal.hpp"
 
@@ -216,6 +218,15 @@ TEST_F(FolderPicturesTest, LinksThatLeadNowhereDoNotCount) {
   const FolderPictures pictures{two_folders()};
   EXPECT_EQ(pictures.files().size(), 1U);
   EXPECT_EQ(pictures.left_out(), 0U);
+}
+
+TEST_F(FolderPicturesTest, RefusesAPngWithTooManyPixelsBeforeItUnpacksIt) {
+  // Nothing follows, so a decoder would say that it cannot be read.
+  const std::string_view png{"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\xff\xff", 24};
+  const auto picture =
+      decode_picture({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()});
+  ASSERT_FALSE(picture);
+  EXPECT_EQ(picture.error().text, "it has 16384 x 65535 pixels; a side may have 16384");
 }
 
 TEST_F(FolderPicturesTest, RefusesAPictureWithTooManyPixelsByItsName) {

@@ -11,6 +11,8 @@
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
+#include <span>
 #include <string_view>
 
 #include "jpeg_decoder.hpp"
@@ -41,8 +43,23 @@ GrayPicture picture_of(const cv::Mat& gray) {
   return picture;
 }
 
-tl::unexpected<Reason> refuse_size(int width, int height) {
+tl::unexpected<Reason> refuse_size(std::int64_t width, std::int64_t height) {
   return refuse(fmt::format("it has {} x {} pixels; a side may have {}", width, height, kMaxSide));
+}
+
+/// Width and height of a PNG, as its beginning tells them; nothing of another file.
+std::optional<std::array<std::uint32_t, 2>> size_of_png(std::span<const std::uint8_t> bytes) {
+  constexpr std::string_view kSignature{"\x89PNG\r\n\x1a\n"};
+  constexpr std::size_t kWidthAt = 16, kEnd = 24;
+  if (bytes.size() < kEnd || std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) != 0) {
+    return std::nullopt;
+  }
+  const auto number_at = [&](std::size_t at) {
+    std::uint32_t number = 0;
+    for (const std::uint8_t byte : bytes.subspan(at, sizeof number)) number = number << 8U | byte;
+    return number;
+  };
+  return std::array{number_at(kWidthAt), number_at(kWidthAt + sizeof(std::uint32_t))};
 }
 
 /// OpenCV fills the rows that a JPEG lacks with grey, and says nothing.
@@ -62,6 +79,9 @@ Expected<GrayPicture> decode_jpeg(std::span<const std::uint8_t> bytes) {
 Expected<GrayPicture> decode_picture(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return refuse("it is empty");
   if (jpeg::is_jpeg(bytes)) return decode_jpeg(bytes);
+  // A megabyte of PNG would take gigabytes before its size is known.
+  const auto size = size_of_png(bytes);
+  if (size && std::ranges::max(*size) > kMaxSide) return refuse_size((*size)[0], (*size)[1]);
   cv::Mat gray;
   try {
     const cv::Mat file{1, static_cast<int>(bytes.size()), CV_8UC1,

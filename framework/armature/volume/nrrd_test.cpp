@@ -185,6 +185,9 @@ TEST_F(Nrrd, WithALineThatIsNoFieldIsRefusedWithTheLine) {
     write(raw_header(line + "\n"), eight_);
     EXPECT_EQ(refusal(), "line 11: '" + line + "' is neither 'field: value' nor 'key:=value'");
   }
+  write(raw_header(std::string(1'000'000, 'x') + "\n"), eight_);
+  EXPECT_EQ(refusal(), "line 11: '" + std::string(200, 'x') +
+                           "...' is neither 'field: value' nor 'key:=value'");
 }
 
 TEST_F(Nrrd, OfNumbersOfSeveralBytesWhoseOrderItDoesNotSayIsRefused) {

@@ -95,6 +95,19 @@ TEST_F(Meeting, ThatIsInterruptedIsNoRunAndLeavesNoRecording) {
   EXPECT_FALSE(std::filesystem::exists(recording));
 }
 
+TEST_F(Meeting, ThatIsInterruptedLeavesNoRecordingOfAProcessThatWasSlowerEither) {
+  const TemporaryFolder folder;
+  auto words = command();
+  words.insert(words.end(), {"--set", "components.beat.params.construction_s=1", "--set",
+                             "record={file: " + (folder / "run.mcap").string() + "}"});
+  Command run{words, {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}};
+  ASSERT_TRUE(run.wait_for_err("being constructed", seconds{30})) << run.err();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(seconds{30});
+  EXPECT_THAT(result.err, HasSubstr("interrupted before the start"));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
 TEST_F(Meeting, OfProcessesThatAreStartedByHandIsNoRunEitherWhenItIsInterrupted) {
   const TemporaryFolder folder;
   for (const std::string process : {"main", "aside"}) {

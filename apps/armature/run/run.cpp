@@ -214,7 +214,10 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   try {
     deployment.run(watch);
   } catch (...) {
-    if (recording && !watch.started()) remove_recordings(*recording, deployment.config());
+    if (recording && !watch.started()) {
+      children.end([](const std::string&) { return true; });  // one may begin its own only now
+      remove_recordings(*recording, deployment.config());
+    }
     throw;
   }
   RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};

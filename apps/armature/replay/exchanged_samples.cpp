@@ -50,6 +50,17 @@ struct Written {
   }
 };
 
+/// What one process got of a topic from others.
+struct Copy {
+  std::uint32_t sequence;  // in the order in which it came
+  std::size_t hash;
+  Time at;
+};
+struct Copies {
+  McapChannel channel;
+  std::vector<Copy> read;
+};
+
 /// By topic and channel.
 using Writers = std::map<std::string, std::map<std::uint16_t, Written>>;
 
@@ -84,29 +95,41 @@ ExchangedSamples compare_exchanged(const std::filesystem::path& file) {
   const std::vector<std::string> processes = recorded_processes(file);
   if (processes.size() < 2) return exchanged;
   const Writers writers = all_written(file);
-  std::map<std::pair<std::uint16_t, std::uint16_t>, std::uint64_t> last;  // by reader and writer
-  std::optional<Time> start;
+  std::map<std::uint16_t, Copies> all;  // by channel
+  std::optional<Time> start, first;
   McapReader reader{file};
   while (const auto message = reader.next()) {
     if (!start) start = message->log_time;
     const McapChannel& channel = *message->channel;
-    const auto candidates = writers.find(channel.topic);
-    if (!is_doubled(channel, processes) || candidates == writers.end()) continue;
-    const std::size_t hash = hash_of(*message);
-    const bool is_numbered = channel.metadata.contains(kNumberedKey);
-    const bool is_written = std::ranges::any_of(candidates->second, [&](const auto& candidate) {
-      std::uint64_t& after = last[{channel.id, candidate.first}];
-      const auto place = is_numbered ? candidate.second.find_number(message->sequence, hash, after)
-                                     : candidate.second.find(hash, after);
-      if (place) after = *place;
-      return place.has_value();
-    });
-    ++(is_written ? exchanged.compared : exchanged.unwritten);
-    if (is_written && is_numbered) ++exchanged.numbered;
-    if (is_written || exchanged.first) continue;
-    exchanged.first = {.topic = channel.topic,
-                       .reader = process_of(channel),
-                       .at_s = to_seconds(message->log_time - *start)};
+    if (!is_doubled(channel, processes) || !writers.contains(channel.topic)) continue;
+    Copies& copies =
+        all.try_emplace(channel.id, Copies{.channel = channel, .read = {}}).first->second;
+    copies.read.push_back({message->sequence, hash_of(*message), message->log_time});
+  }
+  for (auto& [id, copies] : all) {
+    // Of a queue one component may be shown what came before the newest, which another one was
+    // shown first.
+    std::ranges::stable_sort(copies.read, {}, &Copy::sequence);
+    const bool is_numbered = copies.channel.metadata.contains(kNumberedKey);
+    std::map<std::uint16_t, std::uint64_t> last;  // by writer
+    for (const Copy& copy : copies.read) {
+      const auto& candidates = writers.at(copies.channel.topic);
+      const bool is_written = std::ranges::any_of(candidates, [&](const auto& candidate) {
+        std::uint64_t& after = last[candidate.first];
+        const auto place = is_numbered
+                               ? candidate.second.find_number(copy.sequence, copy.hash, after)
+                               : candidate.second.find(copy.hash, after);
+        if (place) after = *place;
+        return place.has_value();
+      });
+      ++(is_written ? exchanged.compared : exchanged.unwritten);
+      if (is_written && is_numbered) ++exchanged.numbered;
+      if (is_written || (first && *first <= copy.at)) continue;
+      first = copy.at;
+      exchanged.first = {.topic = copies.channel.topic,
+                         .reader = process_of(copies.channel),
+                         .at_s = to_seconds(copy.at - *start)};
+    }
   }
   return exchanged;
 }

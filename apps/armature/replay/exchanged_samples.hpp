@@ -30,7 +30,7 @@ struct ExchangedSamples {
 
 /// Looks for each sample that one process of a joined recording got from another among those that
 /// the writer has recorded, by the number that the writer gave it, or by its content where several
-/// write the topic: the bytes must be the same, and the samples of one writer must come in the
+/// write the topic: the bytes must be the same, and the samples of one writer must have come in the
 /// order in which they were written, none twice. Topics of which the writers have recorded nothing
 /// are left out. Compares hashes of 64 bits. Throws std::runtime_error for a file that cannot be
 /// read.

@@ -243,7 +243,8 @@ void RecordedRun::keep(const McapMessage& message) {
                      .cdr = {message.data.begin(), message.data.end()}});
   const auto known = min_kept_.find(message.channel->topic);
   const std::size_t min_kept = known == min_kept_.end() ? kMinKept : known->second;
-  while (samples.size() > min_kept && samples.front().at < message.log_time - kept_for_) {
+  // It may have waited for its reader until so many more had come, however long that took.
+  while (samples.size() > min_kept && samples[min_kept].at < message.log_time - kept_for_) {
     samples.pop_front();
   }
 }

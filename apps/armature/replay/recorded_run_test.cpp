@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <cstddef>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,8 +22,9 @@ namespace {
 
 constexpr std::uint32_t kWriter = 7, kSamples = 100;
 
-/// Records an input ten times a second, and one call that lasts from its first sample to its last.
-void write_long_call(const std::filesystem::path& file) {
+/// Records `count` samples of an input at their times, and then a call that began with the first.
+void write_call(const std::filesystem::path& file, const std::function<Time(std::uint32_t)>& at,
+                std::uint32_t count) {
   McapWriter writer{file, {}};
   writer.add(McapMetadata{.name = std::string{kDeploymentMetadata},
                           .values = {{"deployment", "lamp"}, {"run", "1"}}});
@@ -38,17 +40,20 @@ void write_long_call(const std::filesystem::path& file) {
   const auto samples = channel("/lamp/state", message_type<msg::Capture>());
   const auto activations = channel("/lamp/activations", message_type<msg::Activation>());
   const std::vector<std::byte> sample(16);
-  for (std::uint32_t i = 1; i <= kSamples; ++i) {
-    const Time at = Time{} + seconds(0.1 * i);
-    writer.write(samples, i, at, at, sample);
-  }
+  for (std::uint32_t i = 1; i <= count; ++i) writer.write(samples, i, at(i), at(i), sample);
   msg::Activation call;
   call.component_("planner");
-  set_stamp(call.now_(), Time{} + seconds(0.1));
+  set_stamp(call.now_(), at(1));
   std::vector<std::byte> cdr;
   message_type<msg::Activation>().encode(&call, cdr);
-  writer.write(activations, 1, Time{} + seconds(0.1), Time{}, cdr);
+  writer.write(activations, 1, at(1), Time{}, cdr);
   writer.close();
+}
+
+/// The input comes ten times a second, and the call lasts from its first sample to its last.
+void write_long_call(const std::filesystem::path& file) {
+  write_call(
+      file, [](std::uint32_t sample) { return Time{} + seconds(0.1 * sample); }, kSamples);
 }
 
 TEST(RecordedRun, HoldsWhatALongCallHasReadUntilTheCallIsTold) {
@@ -59,6 +64,20 @@ TEST(RecordedRun, HoldsWhatALongCallHasReadUntilTheCallIsTold) {
   ASSERT_TRUE(run.next());
   EXPECT_TRUE(run.sample(kWriter, 1));
   EXPECT_TRUE(run.sample(kWriter, kSamples));
+}
+
+TEST(RecordedRun, HoldsWhatHasWaitedForItsReaderWhileNothingElseCame) {
+  const TemporaryFolder folder;
+  constexpr std::uint32_t kBurst = 20;  // more than are held whatever their time
+  write_call(
+      folder / "run.mcap",
+      [](std::uint32_t sample) {
+        return Time{} + (sample == 1 ? Duration{0} : seconds(60 + 0.001 * sample));
+      },
+      kBurst);
+  RecordedRun run{folder / "run.mcap", "main"};
+  ASSERT_TRUE(run.next());
+  EXPECT_TRUE(run.sample(kWriter, 1)) << "a call that began before the burst has read it";
 }
 
 TEST(RecordedRun, HoldsNoMoreThanTheCallsOfItsComponentsNeed) {

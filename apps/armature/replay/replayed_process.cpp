@@ -43,6 +43,7 @@ ReplayedProcess::ReplayedProcess(RecordedRun& run, PluginRegistry& plugins,
     if (!config_.simulated) {  // whose time stands still in a call
       run.keep_for_call(declared_max_step(component, config_).value_or(Duration{0}));
     }
+    run.keep_for_call(component.sim_latency);
     for (const PortBinding& input : component.inputs) {
       run.keep_at_least(input.topic, static_cast<std::size_t>(input.spec.queue.value_or(1)));
     }
@@ -77,6 +78,7 @@ void ReplayedProcess::construct(const std::string& name, const RecordedPorts& po
   if (!entry.why_not.empty()) return;
   const RunningComponent running{name, "constructor"};
   entry.component = std::make_unique<ReplayedComponent>(*config, config_, plugins, ports);
+  run_->keep_for_call(entry.component->runner().latency());
 }
 
 ReplayedProcess::Entry* ReplayedProcess::repeat(const msg::Activation& call, double at_s) {

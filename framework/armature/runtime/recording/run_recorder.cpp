@@ -6,7 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
+#include <optional>
 #include <utility>
+#include <vector>
 
 #include "armature/bus/topic_name.hpp"
 #include "armature/messages/known_types.hpp"
@@ -22,6 +25,7 @@ namespace armature {
 namespace {
 
 constexpr std::size_t kRing = 1U << 12;  // parts of calls: about 0.5 s of a component at 1 kHz
+constexpr std::size_t kManyCalls = 1000;
 constexpr std::chrono::milliseconds kPause{5};
 constexpr std::size_t kMaxOutOfOrder = 4096;
 
@@ -191,13 +195,31 @@ void RunRecorder::run() {
   }
 }
 
+/// Takes calls in the order of their times, whosesoever they are: a replay holds samples for a few
+/// seconds only, and a simulated clock may be minutes ahead of this thread.
 void RunRecorder::take_all() {
-  for (const auto& component : components_) {
-    while (auto entry = component->log.take()) take(*component, *entry);
+  const auto look_at_troubles = [this] {
+    const std::int64_t trouble_ns = trouble_ns_.exchange(kNoTrouble, std::memory_order_relaxed);
+    if (trouble_ns != kNoTrouble) queue_.mark(Time{trouble_ns});
+    if (const std::string problem = queue_.problem(); !problem.empty()) tell_problem(problem);
+  };
+  std::vector<std::optional<ActivationLog::Entry>> begins(components_.size());  // of the next calls
+  for (std::size_t calls = 1;; ++calls) {
+    for (std::size_t i = 0; i < begins.size(); ++i) {
+      if (!begins[i]) begins[i] = components_[i]->log.take();
+    }
+    const auto first = std::ranges::min_element(begins, {}, [](const auto& begin) {
+      return begin ? begin->number : std::numeric_limits<std::int64_t>::max();
+    });
+    if (first == begins.end() || !*first) break;
+    Component& component = *components_[static_cast<std::size_t>(first - begins.begin())];
+    for (auto entry = std::exchange(*first, {}); entry; entry = component.log.take()) {
+      take(component, *entry);
+      if (entry->kind == ActivationLog::Entry::Kind::end) break;
+    }
+    if (calls % kManyCalls == 0) look_at_troubles();
   }
-  const std::int64_t trouble_ns = trouble_ns_.exchange(kNoTrouble, std::memory_order_relaxed);
-  if (trouble_ns != kNoTrouble) queue_.mark(Time{trouble_ns});
-  if (const std::string problem = queue_.problem(); !problem.empty()) tell_problem(problem);
+  look_at_troubles();
 }
 
 void RunRecorder::tell_problem(const std::string& problem) {

@@ -92,7 +92,7 @@ class AnyHand : public testing::TestWithParam<HandSystem> {
     const char* scales[] = {"0.5", "0.01", "10", "1"};
     const std::string scale = std::string{"params.scale="} + scales[seed % 4];
     DeploymentStart start{.files = {source_file("configs/master_manipulator.yaml"),
-                                    source_file("tests/end_to_end/any_hand.yaml")},
+                                    source_file("tests/by_lot/any_hand.yaml")},
                           .settings = GetParam().settings,
                           .domain = kDomain};
     start.settings.insert(start.settings.end(),

@@ -87,7 +87,7 @@ OperatedRun run_with(const System& system, int seed) {
   const TemporaryFolder folder;
   const std::string file = folder / "chronicle", params = "components.operator.params.";
   DeploymentStart start{
-      .files = {source_file(system.file), source_file("tests/end_to_end/any_operator.yaml")},
+      .files = {source_file(system.file), source_file("tests/by_lot/any_operator.yaml")},
       .settings = system.settings,
       .domain = kDomain};
   const bool aborts = seed % 4 == 0;

@@ -172,7 +172,7 @@ TEST(AnyArmOnATour, KeepsItsLimitsAndReachesItsGoals) {
     std::ofstream{folder / "arm.yaml"}
         << fmt::format("armature_robot: 1\nname: any\nurdf: arm.urdf\ntip: {}\nhome: [{:.17g}]\n",
                        arm.tip, fmt::join(arm.home, ", "));
-    DeploymentStart start{.files = {source_file("tests/end_to_end/any_arm.yaml")},
+    DeploymentStart start{.files = {source_file("tests/by_lot/any_arm.yaml")},
                           .settings = arm.settings};
     start.options.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS},
                                  {"ARM_FOLDER", folder.path()}};

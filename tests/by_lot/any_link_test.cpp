@@ -78,7 +78,7 @@ class AnyLink : public testing::TestWithParam<LinkedSystem> {
     const TemporaryFolder folder;
     const std::string file = folder / "chronicle", params = "components.link.params.";
     DeploymentStart start{
-        .files = {source_file(GetParam().file), source_file("tests/end_to_end/any_link.yaml")},
+        .files = {source_file(GetParam().file), source_file("tests/by_lot/any_link.yaml")},
         .settings = GetParam().settings,
         .domain = kDomain};
     start.settings.insert(start.settings.end(),

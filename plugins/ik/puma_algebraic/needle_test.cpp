@@ -168,5 +168,15 @@ TEST_F(PumaTest, ADirectionKeepsTheSeedsRollOrTakesTheGivenOne) {
   }
 }
 
+TEST_F(PumaTest, AToolBesideTheAxisOfJoint6NeedsARotation) {
+  use(arm_of(sr1()->convention(), sr1()->joints(),
+             Eigen::Isometry3d{Eigen::Translation3d{0.01, 0, 0.1}}, Eigen::Vector3d::UnitZ()));
+  const JointVector q = JointVector::Constant(6, -0.5);
+  EXPECT_EQ(describe(solve(direction_goal(q), q)),
+            "invalid_input: a direction needs a tool that lies on the axis of joint 6 and points "
+            "along it; give a rotation");
+  EXPECT_EQ(solve(rotation_goal(q), q).code, IkStatus::Code::ok);
+}
+
 }  // namespace
 }  // namespace armature

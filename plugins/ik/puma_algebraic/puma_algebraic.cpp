@@ -178,6 +178,11 @@ IkStatus PumaAlgebraic::solve(const IkGoal& goal, const JointVector& seed, IkBra
     return {IkStatus::Code::invalid_input, 0, why};
   }
   const bool pointing = std::holds_alternative<Direction>(goal.pose.orientation);
+  if (pointing && !arm_.pointing) {
+    return {IkStatus::Code::invalid_input, 0,
+            "a direction needs a tool that lies on the axis of joint 6 and points along it; give a "
+            "rotation"};
+  }
   if (!pointing && goal.redundancy) {
     return {IkStatus::Code::invalid_input, 0, "a full rotation leaves nothing redundant"};
   }

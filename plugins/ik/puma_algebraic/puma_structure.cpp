@@ -100,14 +100,14 @@ std::array<bool, 6> turned_joints(const std::array<Link, 7>& links) {
   return turned;
 }
 
-/// 1 or -1 as in PumaArm::pointing, or nullopt where a direction does not say where the wrist is.
-std::optional<double> pointing_of(const Eigen::Vector3d& axis,
-                                  const Eigen::Isometry3d& wrist_T_tool) {
-  const Eigen::Vector3d seen = wrist_T_tool.linear() * axis;
-  const bool along = seen.head<2>().norm() < kSame;
+/// Whether pointing goals say enough: 1 or -1 as in PumaArm::pointing.
+std::optional<double> pointing_of(const RobotModel& model, const Eigen::Isometry3d& wrist_T_tool) {
+  if (!model.pointing_axis()) return std::nullopt;
+  const Eigen::Vector3d axis = wrist_T_tool.linear() * *model.pointing_axis();
+  const bool along = axis.head<2>().norm() < kSame;
   const bool on_axis = wrist_T_tool.translation().head<2>().norm() < kSame;
   if (!along || !on_axis) return std::nullopt;
-  return seen.z() > 0 ? 1.0 : -1.0;
+  return axis.z() > 0 ? 1.0 : -1.0;
 }
 
 void set_limits(const RobotModel& model, PumaArm& arm) {
@@ -165,15 +165,7 @@ Expected<PumaArm> puma_arm(const RobotModel& model) {
         Eigen::AngleAxisd{arm.sign[5] * arm.zero[5], Eigen::Vector3d::UnitZ()} * arm.wrist_T_tool;
     arm.zero[5] = 0;
   }
-  if (const auto& axis = model.pointing_axis()) {
-    arm.pointing = pointing_of(*axis, arm.wrist_T_tool);
-    if (!arm.pointing) {
-      return refuse(fmt::format(
-          "not a PUMA-pattern arm: its pointing axis must lie on the axis of joint '{}', with the "
-          "tool's origin on it: which way the tool points would change with a turn about that",
-          joints[5].name));
-    }
-  }
+  arm.pointing = pointing_of(model, arm.wrist_T_tool);
   set_limits(model, arm);
   set_places(arm);
   return arm;

@@ -22,8 +22,8 @@ struct PumaArm : ArmNumbers {
   double a3 = 0, d4 = 0;  // [m]; forearm and beta are their polar form
   Eigen::Isometry3d base_T_shoulder = Eigen::Isometry3d::Identity();
   Eigen::Isometry3d wrist_T_tool = Eigen::Isometry3d::Identity();  // with the needle at 0
-  /// Of a robot with a pointing axis, which lies on the axis of joint 6: 1 when it points the way
-  /// of the wrist's z, -1 against it.
+  /// Set when the tool lies on the axis of joint 6 and the pointing axis along it: 1 when it points
+  /// the way of the wrist's z, -1 against it.
   std::optional<double> pointing;
 
   /// t of joint `i` (from 0) at its value q, and back.

@@ -136,20 +136,5 @@ TEST_F(PumaStructure, AToolThatDoesNotHangOnTheLastJointIsRefused) {
   EXPECT_FALSE(PumaAlgebraic::make(model, Params{}));
 }
 
-TEST_F(PumaStructure, APointingAxisBesideTheAxisOfJoint6IsRefused) {
-  constexpr const char* kRefusal =
-      "not a PUMA-pattern arm: its pointing axis must lie on the axis of joint 'j6', with the "
-      "tool's "
-      "origin on it: which way the tool points would change with a turn about that";
-  const auto made = [](const Eigen::Isometry3d& last_T_tool, const Eigen::Vector3d& axis) {
-    return puma_arm(*arm_of(sr1()->convention(), sr1()->joints(), last_T_tool, axis));
-  };
-  const Eigen::Isometry3d on{Eigen::Translation3d{0, 0, 0.1}};
-  const Eigen::Isometry3d beside{Eigen::Translation3d{0.01, 0, 0.1}};
-  EXPECT_EQ(made(beside, Eigen::Vector3d::UnitZ()).error().text, kRefusal);
-  EXPECT_EQ(made(on, Eigen::Vector3d::UnitX()).error().text, kRefusal);
-  EXPECT_EQ(made(on, -Eigen::Vector3d::UnitZ()).value().pointing, -1.0);
-}
-
 }  // namespace
 }  // namespace armature

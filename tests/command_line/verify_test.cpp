@@ -161,6 +161,7 @@ TEST(PluginVerify, ALibraryWhoseWorkAnotherOneDoesOnThisProcessorIsItsPlugin) {
   EXPECT_EQ(result.exit_code, 0) << result.out << result.err;
   const json told = json::parse(result.out);
   EXPECT_EQ(told["plugin"], "detector/hog");
+  EXPECT_GE(told["robots"][0]["laws"].size(), 3u);
   for (const json& law : told["robots"][0]["laws"]) {
     EXPECT_EQ(law["result"], "pass") << "a drawn face is there for it " << law;
   }

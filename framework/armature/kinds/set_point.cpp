@@ -206,8 +206,8 @@ void SetPoint::move_within_limits(int joint, const Step& wanted) {
   const double dt = wanted.dt;
   const double a = model_.max_acceleration()[joint];
   const double v_limit = model_.max_velocity()[joint];
-  const double gap = wanted.q - q_[joint];
-  const double approach = std::copysign(stopping_velocity(std::abs(gap), a, dt), gap);
+  const double behind = wanted.q - wanted.v * dt - q_[joint];  // which moves on meanwhile
+  const double approach = std::copysign(stopping_velocity(std::abs(behind), a, dt), behind);
   double v = std::clamp(wanted.v + approach, -v_limit, v_limit);
   v = std::min(v, stopping_velocity(highest(joint) - q_[joint], a, dt));
   v = std::max(v, -stopping_velocity(q_[joint] - lowest(joint), a, dt));

@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
+#include <string>
 #include <utility>
 
 #include "armature/robot/trajectories/quintic.hpp"
@@ -154,6 +156,48 @@ TEST_F(SetPointTest, KeepsItsLimitsWhereCommandsComeLateAndSomeAreLost) {
     ASSERT_NEAR(arm_.position()[0], move.position(std::min(0.001 * k, 1.2)), 0.01);
   }
   EXPECT_NEAR(arm_.position()[0], 0.9, 1e-12);
+}
+
+TEST_F(SetPointTest, BehindALossItIsExactlyOnTheStreamAgainWhileItMoves) {
+  const Quintic start = Quintic::between({0, 0, 0}, {0.5, 0.5, 0}, 0.5);
+  const auto at = [&](int k) {
+    const double t = 0.001 * k;
+    return t < 0.5 ? command(start.position(t), start.velocity(t)) : command(0.5, 0.5);
+  };
+  for (int k = 1; k <= 500; ++k) step(k > 150 && k < 210 ? at(150) : at(k));
+  for (int k = 501; k <= 1000; ++k) {
+    const double q = 0.5 + 0.0005 * (k - 500);
+    step(command(q, 0.5));
+    if (k > 800) {
+      ASSERT_NEAR(arm_.position()[0], q, 1e-9) << k << " ms";
+    }
+  }
+}
+
+/// A driver whose thread wakes at instants of its own follows a motion that uses all of the
+/// acceleration: it keeps near, and does not come beyond the end.
+TEST(SetPoint, FollowsAStreamAtItsLimitsThoughItsOwnStepsAreUneven) {
+  constexpr double kWay = 0.02, kLimit = 0.2, kPeakOfQuintic = 10 / std::numbers::sqrt3;
+  const double duration = std::sqrt(kPeakOfQuintic * kWay / kLimit);
+  const Quintic move = Quintic::between({0, 0, 0}, {kWay, 0, 0}, duration);
+  const RobotModel model = one_joint(1, kLimit);
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937 random{seed};
+    std::uniform_real_distribution<double> late_s{0, 1e-4};
+    SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};
+    for (int k = 1; 0.001 * k < duration + 0.3; ++k) {
+      if (k >= 600 && k < 605) continue;  // once it wakes late while the joint brakes
+      const double told_s = 0.001 * k + late_s(random), now_s = told_s + 2e-5;
+      const double t = std::min(told_s, duration), now = std::min(now_s, duration);
+      arm.step(
+          Time{} + seconds(now_s),
+          ServoCommand{Time{} + seconds(told_s), value(move.position(t)), value(move.velocity(t))});
+      ASSERT_LT(arm.position()[0], kWay + 1e-6) << k << " ms";
+      ASSERT_NEAR(arm.position()[0], move.position(now), k < 590 ? 1e-6 : 5e-5) << k << " ms";
+    }
+    EXPECT_NEAR(arm.position()[0], kWay, 1e-9);
+  }
 }
 
 TEST_F(SetPointTest, RampsDownAndHoldsWhenThereIsNoCommandAnyMore) {

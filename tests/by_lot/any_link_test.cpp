@@ -95,12 +95,23 @@ class AnyLink : public testing::TestWithParam<LinkedSystem> {
   void expect_limits(const LinkedRun& run) const;
   void expect_stops(const LinkedRun& run) const;
   void expect_rest(const LinkedRun& run) const;
+  bool waits_for(const LinkedStep& step) const;
 
   const RobotModel robot_ = load_robot_model(source_file("configs/robots/" + GetParam().robot));
 };
 
 double farthest(const JointVector& a, const JointVector& b) {
   return (a - b).cwiseAbs().maxCoeff();
+}
+
+/// A command that is so far away after a stop of the arm's own is waited for to come near.
+bool AnyLink::waits_for(const LinkedStep& step) const {
+  constexpr double kFar_rad = 0.1, kFar_m = 0.05;
+  for (int i = 0; i < robot_.dof(); ++i) {
+    const double far = robot_.is_revolute(i) ? kFar_rad : kFar_m;
+    if (std::abs(step.told_q[i] - step.q[i]) > far) return true;
+  }
+  return false;
 }
 
 // 1.
@@ -156,6 +167,8 @@ void AnyLink::expect_rest(const LinkedRun& run) const {
     const auto settled = rests + std::lround(kSettled_s / 0.001);
     ASSERT_LE(farthest(step.q, settled->q), 1e-9)
         << step.time_s << " s: the newest command rests since " << rests->time_s << " s";
+    ASSERT_TRUE(farthest(step.q, step.told_q) <= 1e-9 || waits_for(step))
+        << step.time_s << " s: at " << step.q.transpose() << ", told " << step.told_q.transpose();
   }
 }
 

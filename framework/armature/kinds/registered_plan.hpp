@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <optional>
 #include <ranges>
 #include <utility>
@@ -43,17 +42,19 @@ class RegisteredPlan {
   /// Once an activation. The plan is the first one, until the task asks for the registration of
   /// another one: the task goes on with its own when others come.
   News read() {
+    if (plans_.fresh()) remember(*plans_.latest(), last_plans_);
     if (questions_.fresh()) remember(*questions_.latest(), last_questions_);
-    bool again = false;
     for (std::size_t i = 0; i < answers_.size(); ++i) {
-      if (!answers_[i].valid_()) continue;
-      again = again || answers_[i].request_id_() == told_;
-      remember(answers_[i], last_answers_);
+      if (answers_[i].valid_()) remember(answers_[i], last_answers_);
     }
-    const bool is_other = choose();
-    const msg::RegistrationResponse* answer = registration();
-    const auto id = answer ? std::optional{answer->request_id_()} : std::nullopt;
-    return {is_other, std::exchange(told_, id) != id || again};
+    News news{.plan = choose()};
+    if (news.plan) news.registration = std::exchange(registration_, std::nullopt).has_value();
+    hear([](const auto&) { return true; }, any_registration_);
+    const auto is_own = [&](const auto& question) {
+      return plan_ && is_asked_of(*plan_, question);
+    };
+    news.registration = hear(is_own, registration_) || news.registration;
+    return news;
   }
 
   /// Null before the first one.
@@ -61,25 +62,14 @@ class RegisteredPlan {
   /// The answer to the newest question about this plan that has one; null while there is none. It
   /// tells a registration.
   const msg::RegistrationResponse* registration() const {
-    return answer_to([&](const auto& question) { return plan_ && is_asked_of(*plan_, question); });
+    return registration_ ? &*registration_ : nullptr;
   }
   /// The same of whatever plan: `plan` may be the truth, which no task knows.
   const msg::RegistrationResponse* any_registration() const {
-    return answer_to([](const auto&) { return true; });
+    return any_registration_ ? &*any_registration_ : nullptr;
   }
 
  private:
-  template <class Is>
-  const msg::RegistrationResponse* answer_to(const Is& is_wanted) const {
-    for (const msg::RegistrationRequest& question : std::views::reverse(last_questions_)) {
-      if (!is_wanted(question)) continue;
-      for (const msg::RegistrationResponse& answer : std::views::reverse(last_answers_)) {
-        if (answer.request_id_() == question.request_id_()) return &answer;
-      }
-    }
-    return nullptr;
-  }
-
   /// An answer may take longer than it takes to ask again, and a question than its answer.
   template <class Message>
   static void remember(const Message& message, std::vector<Message>& last) {
@@ -88,19 +78,39 @@ class RegisteredPlan {
     last.push_back(message);
   }
 
+  /// True when it is another one than before.
   bool choose() {
-    const Plan* newest = plans_.latest();
-    if (!newest) return false;
-    const bool is_asked = !last_questions_.empty() && is_asked_of(*newest, last_questions_.back());
-    const bool is_other = plan_ && is_asked && !is_asked_of(*plan_, last_questions_.back());
-    if (is_other || !plan_) plan_ = *newest;
-    return is_other;
+    if (!plan_ && !last_plans_.empty()) plan_ = last_plans_.front();
+    if (!plan_ || last_questions_.empty()) return false;
+    const auto is_asked = [&](const Plan& plan) {
+      return is_asked_of(plan, last_questions_.back());
+    };
+    const auto asked = std::ranges::find_if(last_plans_, is_asked);
+    if (is_asked(*plan_) || asked == last_plans_.end()) return false;
+    plan_ = *asked;
+    return true;
+  }
+
+  /// Keeps the answer to the newest of such questions; true when that is another one.
+  template <class Is>
+  bool hear(const Is& is_such, std::optional<msg::RegistrationResponse>& kept) const {
+    for (const msg::RegistrationRequest& question : std::views::reverse(last_questions_)) {
+      if (!is_such(question)) continue;
+      for (const msg::RegistrationResponse& answer : std::views::reverse(last_answers_)) {
+        if (answer.request_id_() != question.request_id_()) continue;
+        if (kept == answer) return false;
+        kept = answer;
+        return true;
+      }
+    }
+    return false;
   }
 
   std::optional<Plan> plan_;
+  std::optional<msg::RegistrationResponse> registration_, any_registration_;
+  std::vector<Plan> last_plans_;
   std::vector<msg::RegistrationRequest> last_questions_;
   std::vector<msg::RegistrationResponse> last_answers_;
-  std::optional<std::uint64_t> told_;  // the number of the registration
   Input<Plan> plans_;
   Input<msg::RegistrationRequest> questions_;
   Input<msg::RegistrationResponse> answers_;

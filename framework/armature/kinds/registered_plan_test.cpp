@@ -129,10 +129,25 @@ TEST_F(RegisteredPlanTest, HearsOnlyAnswersToTheTasksQuestionsThatTellARegistrat
   answer(5);
   step();
   EXPECT_EQ(registered(), 5u);
-  answer(5);  // once more, which may be another one
+  for (std::uint64_t id = 6; id < 12; ++id) {
+    ask(id, 0.01);
+    answer(id, false);
+    answer(100 + id);
+    step();
+  }
+  EXPECT_EQ(registered(), 5u) << "what was refused since takes nothing away";
+}
+
+TEST_F(RegisteredPlanTest, IsTheOneThatWasAskedForThoughAnotherCameSince) {
+  for (const double z : {0.01, 0.02, 0.03}) {
+    plan(z);
+    step();
+  }
+  ask(1, 0.02);
+  answer(1);
   step();
-  EXPECT_EQ(registered(), 5u);
-  EXPECT_TRUE(watcher().news.registration);
+  EXPECT_EQ(target_z(), 0.02);
+  EXPECT_EQ(registered(), 1u);
 }
 
 }  // namespace

@@ -366,7 +366,6 @@ class ImplantReport final : public Component {
   Flange flange_;
   std::optional<Time> start_, drilled_at_, ended_at_;
   bool told_other_plan_ = false;
-  std::optional<Eigen::Affine3d> jaw_T_image_;
   GuidedChain true_chain_, true_driver_;
   std::optional<BoreMonitor> bores_, implants_;
   bool has_driver_ = false;  // in the drill's place

@@ -41,6 +41,7 @@ struct HandRun {
 HandRun read_hand_run(const std::string& text, const RobotModel& robot) {
   HandRun run;
   bool open = true, stopped = false, closes_anew = false;
+  bool at_limit = false;  // where the hand has led it before: from there it need not follow
   std::istringstream lines{text};
   for (std::string one; std::getline(lines, one);) {
     std::istringstream line{one};
@@ -60,10 +61,12 @@ HandRun read_hand_run(const std::string& text, const RobotModel& robot) {
     if (kind == "wild" || kind == "calm") run.behaves_from_s = kind == "calm" ? time_s : INFINITY;
     if (kind == "none") run.tells_none = true;
     if (kind == "closed") run.closed_m.push_back(value);
-    if (kind == "followed") run.followed_m.push_back(value);
+    if (kind == "task" && one.find("cannot follow: ik: ") != one.npos) at_limit = true;
+    if (kind == "followed") run.followed_m.push_back(at_limit ? 0 : value);
     if (kind == "stop") stopped = closes_anew = true;
     if (kind == "rearmed") stopped = false;
     if (kind == "clutch") open = value == 0;
+    if (kind == "clutch") at_limit = false;
     if (kind == "clutch" && !open && !stopped) closes_anew = false;
     const std::string why = stopped       ? "stopped"
                             : open        ? "the clutch is open"

@@ -164,7 +164,8 @@ std::optional<FrameId> read_urdf(const Node& file, MapReader& map, RobotParts& p
   parts.convention = RobotModel::Convention::modified;
   parents.is_unread = true;
   if (tip.name.empty()) return std::nullopt;  // noted as missing
-  UrdfArm arm = read_urdf_arm(config::folder_of(file.origin()) / file.text(), base, tip, problems);
+  UrdfArm arm = read_urdf_arm(config::folder_of(file.origin()) / file.text(), file.origin(), base,
+                              tip, problems);
   parts.joints = arm.joints;
   parts.frames = std::move(arm.frames);
   if (arm.tool && !(more && more->find("tool"))) parts.frames.push_back(*arm.tool);

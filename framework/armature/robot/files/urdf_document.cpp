@@ -113,10 +113,10 @@ UrdfDocument::Places UrdfDocument::places_in(const std::string& text, const std:
   return places;
 }
 
-UrdfDocument UrdfDocument::load(const std::filesystem::path& file) {
+UrdfDocument UrdfDocument::load(const std::filesystem::path& file, const Origin& named_at) {
   UrdfDocument document;
   document.file_ = file.string();
-  const std::string text = config::read_source(file, Origin{});
+  const std::string text = config::read_source(file, named_at);
   refuse_declarations(text, document.file_);
   document.places_ = places_in(text, document.file_);
 

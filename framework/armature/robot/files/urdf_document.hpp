@@ -14,9 +14,10 @@ namespace armature {
 /// A URDF file as urdfdom reads it, and where it says what: urdfdom itself keeps no lines.
 class UrdfDocument {
  public:
-  /// Throws config::ConfigError: the file cannot be read, is no XML, or urdfdom refuses it (its own
-  /// messages, at the joint or link that they name), or would drop something of a joint.
-  static UrdfDocument load(const std::filesystem::path& file);
+  /// `named_at`: where the file is named. Throws config::ConfigError: the file cannot be read, is
+  /// no XML, or urdfdom refuses it (its own messages, at the joint or link that they name), or
+  /// would drop something of a joint.
+  static UrdfDocument load(const std::filesystem::path& file, const config::Origin& named_at);
 
   const urdf::ModelInterface& model() const { return *model_; }
   /// The file, without a line.

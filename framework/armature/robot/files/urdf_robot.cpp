@@ -66,13 +66,13 @@ void check_followers(const RobotModel& model, const std::vector<config::Origin>&
 
 }  // namespace
 
-UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, const LinkName& tip,
-                      config::Problems& problems) {
+UrdfArm read_urdf_arm(const std::filesystem::path& file, const config::Origin& named_at,
+                      const LinkName& base, const LinkName& tip, config::Problems& problems) {
   UrdfArm arm;
   UrdfChain chain;
   bool has_tool_link = false;
   try {
-    const UrdfDocument document = UrdfDocument::load(file);
+    const UrdfDocument document = UrdfDocument::load(file, named_at);
     arm.name = document.model().getName();
     chain = read_urdf_chain(document, base, tip, problems);
     check_base(chain, document, base, problems);
@@ -131,7 +131,7 @@ void check_urdf_limits(const UrdfArm& arm, const std::vector<Joint>& joints,
 RobotModel load_urdf_robot(const std::filesystem::path& file, const LinkName& base,
                            const LinkName& tip) {
   config::Problems problems;
-  UrdfArm arm = read_urdf_arm(file, base, tip, problems);
+  UrdfArm arm = read_urdf_arm(file, {}, base, tip, problems);
   check_urdf_limits(arm, arm.joints, problems);
   problems.throw_if_any();
   RobotModel model{{std::move(arm.name), RobotModel::Convention::modified, std::move(arm.joints),

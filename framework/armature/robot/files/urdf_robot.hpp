@@ -33,10 +33,10 @@ struct UrdfArm {
   /// what to name. A name that is a frame's, too, is not among them.
   std::map<std::string, std::string> no_frames;
 };
-/// `base` without a name: the root link. Every problem goes to `problems`; with one the arm may be
-/// incomplete.
-UrdfArm read_urdf_arm(const std::filesystem::path& file, const LinkName& base, const LinkName& tip,
-                      config::Problems& problems);
+/// `named_at`: where `file` is named. `base` without a name: the root link. Every problem goes to
+/// `problems`; with one the arm may be incomplete.
+UrdfArm read_urdf_arm(const std::filesystem::path& file, const config::Origin& named_at,
+                      const LinkName& base, const LinkName& tip, config::Problems& problems);
 
 /// Notes every joint that has no room to move, or a speed below 0, by the file; `joints` are the
 /// arm's as they shall be: one that says otherwise by now or is locked is not looked at.

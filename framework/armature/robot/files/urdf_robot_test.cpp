@@ -276,6 +276,13 @@ TEST_F(UrdfFile, ThatIsNoneIsRefusedWithItsLine) {
               ElementsAre(HasSubstr("none.urdf': No such file or directory")));
 }
 
+TEST_F(UrdfFile, ThatIsNotThereIsToldWhereARobotFileNamesIt) {
+  EXPECT_THAT(
+      problems_when([&] { robot("armature_robot: 1\nname: mine\nurdf: none.urdf\ntip: hand\n"); }),
+      ElementsAre(::testing::AllOf(HasSubstr("arm.yaml:3:7: cannot read '"),
+                                   HasSubstr("none.urdf': No such file or directory"))));
+}
+
 TEST_F(UrdfFile, InARobotFileBringsJointsAndLinksToWhichTheFileAdds) {
   write("arm.urdf", arm("continuous", ""));
   const RobotModel made = robot(

@@ -383,7 +383,7 @@ TEST_P(AnyOperator, LetsNoArmMoveOtherwiseThanItMay) {
     expect_end(operated);
     if (!GetParam().hand_leads) expect_stops_that_stay(operated.chronicle);
     if (seed > first || GetParam().name == "Lamp") continue;  // its cameras take too long
-    EXPECT_GT(operated.chronicle.words.size(), 3U);
+    EXPECT_FALSE(operated.chronicle.words.empty());
     EXPECT_TRUE(run_with(GetParam(), seed).chronicle.text == operated.chronicle.text)
         << "the same operator gives the same run";
   }

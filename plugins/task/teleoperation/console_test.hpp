@@ -58,6 +58,12 @@ class TeleoperationTest : public testing::Test {
     view_.clutch_closed = true;
     see();
   }
+  void open_and_close_clutch() {
+    view_.clutch_closed = false;
+    see();
+    view_.clutch_closed = true;
+    see();
+  }
   void move_hand(double mm) { view_.leader_T_hand->translation().x() += 1e-3 * mm; }
 
   const Eigen::Isometry3d console_ = pose_of({0.6, -0.1, 0.1}, 0.5);

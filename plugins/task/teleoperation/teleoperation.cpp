@@ -159,10 +159,12 @@ void Teleoperation::judge_following(double behind_m, Time now) {
 
 void Teleoperation::await_clutch(const ConsoleView& view, const std::string& missing, Time now) {
   const bool closed = view.clutch_closed && *view.clutch_closed;
-  const bool was_given = leader_goal_.has_moved();  // the leader, to the hand
-  closed_early_ = closed && (closed_early_ || (was_given && !missing.empty()));
+  const bool is_open = view.clutch_closed && !closed;
+  // The leader, to the hand: also where a stop kept it from that.
+  const bool was_given = leader_goal_.has_moved() || !leader_goal_.may_move();
+  awaits_opening_ = !is_open && (awaits_opening_ || (was_given && !missing.empty()));
   if (phase_ != Phase::held) {
-    const bool only_early = closed_early_ && missing.empty();
+    const bool only_early = awaits_opening_ && missing.empty();
     name_missing(only_early ? kClosedEarly : missing, now);
   }
   if (!missing.empty()) return;
@@ -171,7 +173,7 @@ void Teleoperation::await_clutch(const ConsoleView& view, const std::string& mis
     phase_ = Phase::clutch_open;
     trouble_.clear();
   }
-  if (closed && !closed_early_ && procedure_.may_act()) engage(view);
+  if (closed && !awaits_opening_ && procedure_.may_act()) engage(view);
 }
 
 void Teleoperation::engage(const ConsoleView& view) {

@@ -85,7 +85,7 @@ class Teleoperation {
   /// Why no hand comes there from where it was last told, `passed_s` later by its stamps, or "".
   std::string jump(const Eigen::Isometry3d& hand, double passed_s) const;
   /// Not following: until the clutch is closed. What comes back while it is closed, as a leader
-  /// behind a rearm, moves nothing.
+  /// behind a rearm, or comes back closed, as the clutch itself, moves nothing.
   void await_clutch(const ConsoleView& view, const std::string& missing, Time now);
   void engage(const ConsoleView& view);
   void stop_follower(Phase phase, std::string trouble);
@@ -105,7 +105,7 @@ class Teleoperation {
   Phase phase_ = Phase::waiting;
   std::optional<Time> missing_since_, trails_since_;
   bool trails_ = false;
-  bool closed_early_ = false;  // the clutch, while something was missing, and not opened since
+  bool awaits_opening_ = false;  // of the clutch: something was missing while it was not told open
   std::string trouble_;
 };
 

@@ -36,7 +36,9 @@ TEST_F(TeleoperationTest, AHandThatIsSilentBeforeTheFirstClosingIsNamed) {
   see(900);
   EXPECT_EQ(task_.trouble(), "") << "counted anew";
   view_.clutch_closed = true;
-  see();
+  see(10);
+  EXPECT_EQ(task_.phase(), Phase::aligned) << "who was silent may have been closed meanwhile";
+  open_and_close_clutch();
   EXPECT_EQ(task_.phase(), Phase::teleoperating);
 }
 
@@ -158,6 +160,51 @@ TEST_F(TeleoperationTest,
   EXPECT_EQ(task_.trouble(), "");
   view_.clutch_closed = true;
   see();
+  EXPECT_EQ(task_.phase(), Phase::teleoperating);
+}
+
+TEST_F(TeleoperationTest, AClutchThatWasSilentBehindAnOpenOneMovesNothingUntilItIsClosedAnew) {
+  close_clutch();
+  view_.clutch_closed = false;
+  see();
+  view_.clutch_closed.reset();
+  see();
+  view_.clutch_closed = true;
+  see(10);
+  EXPECT_EQ(task_.phase(), Phase::clutch_open);
+  open_and_close_clutch();
+  EXPECT_EQ(task_.phase(), Phase::teleoperating);
+}
+
+TEST_F(TeleoperationTest, AClutchThatIsSilentDuringTheRearmMovesNothingUntilItIsClosedAnew) {
+  close_clutch();
+  view_.clutch_closed = false;
+  see();
+  hear_leader(Report::failed, "stop", "stopped until it is rearmed");
+  view_.clutch_closed = true;
+  see();
+  view_.clutch_closed.reset();
+  see(300);
+  hear_leader(Report::executing);
+  see();
+  view_.clutch_closed = true;
+  see(10);
+  EXPECT_EQ(task_.phase(), Phase::clutch_open);
+  open_and_close_clutch();
+  EXPECT_EQ(task_.phase(), Phase::teleoperating);
+}
+
+TEST_F(TeleoperationTest, AClutchThatIsClosedDuringAStopBeforeTheHandHasTheLeaderMovesNothing) {
+  align();
+  hear_leader(Report::failed, "stop", "stopped until it is rearmed");
+  view_.clutch_closed = false;
+  see();
+  view_.clutch_closed = true;
+  see(300);
+  hear_leader(Report::executing);
+  see(10);
+  EXPECT_EQ(task_.phase(), Phase::aligned);
+  open_and_close_clutch();
   EXPECT_EQ(task_.phase(), Phase::teleoperating);
 }
 

@@ -11,6 +11,7 @@
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "colour.hpp"
 #include "standard_output.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 
@@ -44,7 +45,8 @@ int exit_code_of(const std::function<int()>& action) {
     std::fprintf(stderr, "%s\n", error.what());
     return exit_code_of(error);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s %s\n", coloured("armature:", Tone::bad, stderr).c_str(), error.what());
+    std::fprintf(stderr, "%s %s\n", coloured("armature:", Tone::bad, stderr).c_str(),
+                 terminal_lines(error.what(), 0).c_str());
     return exit_code_of(error);
   }
 }

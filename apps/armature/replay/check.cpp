@@ -20,6 +20,7 @@
 #include "replay/exchanged_samples.hpp"
 #include "replay/message_difference.hpp"
 #include "replay/recorded_run.hpp"
+#include "replay/recorded_text.hpp"
 #include "replay/replay.hpp"
 #include "replay/replayed_process.hpp"
 #include "standard_output.hpp"
@@ -282,13 +283,13 @@ void print_json(const std::vector<std::unique_ptr<Check>>& checks, const Totals&
 
 void print(const ExchangedSamples& exchanged) {
   if (exchanged.compared > 0) {
-    print_out(
+    print_recorded(
         "{} samples that processes read of each other are as they were written, {} of them "
         "found by their writer's number\n",
         with_commas(exchanged.compared), with_commas(exchanged.numbered));
   }
   if (!exchanged.first) return;
-  print_out(
+  print_recorded(
       "{} are not: process '{}' read a sample of {} first at {:.6f} s that is not in the "
       "recording of its writer\n",
       with_commas(exchanged.unwritten), exchanged.first->reader, exchanged.first->topic,
@@ -299,23 +300,24 @@ void print(const std::vector<std::unique_ptr<Check>>& checks, const Totals& tota
   for (const auto& check : checks) {
     for (const auto& [name, entry] : check->entries()) {
       const auto& difference = check->of(name).difference;
-      if (difference) print_out("{}\n", text_of(name, *difference));
+      if (difference) print_recorded("{}\n", text_of(name, *difference));
     }
   }
-  print_out("{}: {} outputs of {} activations of {} components; {:.1f} s of the run in {:.1f} s\n",
-            verdict_of(totals), with_commas(totals.outputs), with_commas(totals.activations),
-            totals.components, totals.length_s, took_s);
+  print_recorded(
+      "{}: {} outputs of {} activations of {} components; {:.1f} s of the run in {:.1f} s\n",
+      verdict_of(totals), with_commas(totals.outputs), with_commas(totals.activations),
+      totals.components, totals.length_s, took_s);
   print(totals.exchanged);
   for (const auto& check : checks) {
     for (const auto& [name, entry] : check->entries()) {
-      if (!entry.component) print_out("not replayed: '{}', {}\n", name, entry.why_not);
+      if (!entry.component) print_recorded("not replayed: '{}', {}\n", name, entry.why_not);
       if (entry.ends) {
-        print_out("replayed up to its activation {}: '{}', {}\n", with_commas(entry.activations),
-                  name, *entry.ends);
+        print_recorded("replayed up to its activation {}: '{}', {}\n",
+                       with_commas(entry.activations), name, *entry.ends);
       }
       if (const auto unrecorded = check->of(name).unrecorded; unrecorded > 0) {
-        print_out("not compared: {} outputs of '{}', which are not in the recording\n",
-                  with_commas(unrecorded), name);
+        print_recorded("not compared: {} outputs of '{}', which are not in the recording\n",
+                       with_commas(unrecorded), name);
       }
     }
   }

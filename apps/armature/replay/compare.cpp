@@ -17,6 +17,7 @@
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "replay/field_differences.hpp"
+#include "replay/recorded_text.hpp"
 #include "replay/replay.hpp"
 #include "replay/replayed_process.hpp"
 #include "replay/watched_ik.hpp"
@@ -255,41 +256,43 @@ bool is_same(const TopicDifferences& differences) {
 }
 
 void print_fields(const std::string& topic, const TopicDifferences& differences) {
-  print_out("  {}: {} of {} messages differ\n", topic, differences.differing(),
-            differences.messages());
+  print_recorded("  {}: {} of {} messages differ\n", topic, differences.differing(),
+                 differences.messages());
   if (differences.only_before() + differences.only_now() > 0) {
-    print_out("    {} messages only in the recording, {} only now\n", differences.only_before(),
-              differences.only_now());
+    print_recorded("    {} messages only in the recording, {} only now\n",
+                   differences.only_before(), differences.only_now());
   }
   for (const auto& [name, field] : differences.fields()) {
     const std::string what = field.is_number
                                  ? fmt::format("by up to {:.3g}", field.largest)
                                  : fmt::format("first {} now {}", field.before, field.now);
-    print_out("    {:<28} {:>6} of them, {} at {:.3f} s\n", name, field.messages, what, field.at_s);
+    print_recorded("    {:<28} {:>6} of them, {} at {:.3f} s\n", name, field.messages, what,
+                   field.at_s);
   }
   const auto& steps = differences.joint_steps();
   if (steps[0] + steps[1] > 0) {
-    print_out("    largest step of a joint      recorded {:.6g}, now {:.6g}\n", steps[0], steps[1]);
+    print_recorded("    largest step of a joint      recorded {:.6g}, now {:.6g}\n", steps[0],
+                   steps[1]);
   }
 }
 
 void print_solver(const Side::Solver& before, const Side::Solver& now) {
-  print_out("inverse kinematics of '{}': {} calls of {}, {} failed; {} of {}, {} failed\n",
-            now.component, before.calls.count, before.plugin, before.calls.failed, now.calls.count,
-            now.plugin, now.calls.failed);
+  print_recorded("inverse kinematics of '{}': {} calls of {}, {} failed; {} of {}, {} failed\n",
+                 now.component, before.calls.count, before.plugin, before.calls.failed,
+                 now.calls.count, now.plugin, now.calls.failed);
   if (now.calls.count > 0 && before.calls.count > 0) {
     const double mean = now.calls.took_s / static_cast<double>(now.calls.count);
     const double mean_before = before.calls.took_s / static_cast<double>(before.calls.count);
-    print_out("  a call takes {:.3g} times as long: {:.2f} us instead of {:.2f} us\n",
-              mean / mean_before, 1e6 * mean, 1e6 * mean_before);
+    print_recorded("  a call takes {:.3g} times as long: {:.2f} us instead of {:.2f} us\n",
+                   mean / mean_before, 1e6 * mean, 1e6 * mean_before);
   }
   if (now.calls.first_failed) {
-    print_out("  first failure, {}:\n  {}\n", now.calls.first_failed->answer,
-              line_for(*now.calls.first_failed, now));
+    print_recorded("  first failure, {}:\n  {}\n", now.calls.first_failed->answer,
+                   line_for(*now.calls.first_failed, now));
   }
   if (now.calls.slowest) {
-    print_out("  slowest call, {:.2f} us, {}:\n  {}\n", 1e6 * now.calls.slowest->took_s,
-              now.calls.slowest->answer, line_for(*now.calls.slowest, now));
+    print_recorded("  slowest call, {:.2f} us, {}:\n  {}\n", 1e6 * now.calls.slowest->took_s,
+                   now.calls.slowest->answer, line_for(*now.calls.slowest, now));
   }
 }
 
@@ -297,7 +300,7 @@ void print(const Comparison& comparison) {
   for (const auto& [name, compared] : comparison.components()) {
     const TimingFigures before = times_of(comparison.before(), name);
     const TimingFigures now = times_of(comparison.now(), name);
-    print_out(
+    print_recorded(
         "'{}', {} activations: a step takes {:.3g} times as long (p50 {:.2f} us instead of "
         "{:.2f}, p99 {:.2f} us instead of {:.2f}), the slowest {:.2f} us at {:.3f} s\n",
         name, now.count, now.p50_s / before.p50_s, 1e6 * now.p50_s, 1e6 * before.p50_s,
@@ -310,7 +313,7 @@ void print(const Comparison& comparison) {
         print_fields(topic, differences);
       }
     }
-    if (!same.empty()) print_out("  the same to the last bit: {}\n", same);
+    if (!same.empty()) print_recorded("  the same to the last bit: {}\n", same);
   }
   const auto& before = comparison.before().solvers;
   const auto& now = comparison.now().solvers;
@@ -318,10 +321,10 @@ void print(const Comparison& comparison) {
     print_solver(before[i], now[i]);
   }
   for (const auto& [name, entry] : comparison.now().process.entries()) {
-    if (!entry.component) print_out("not replayed: '{}', {}\n", name, entry.why_not);
+    if (!entry.component) print_recorded("not replayed: '{}', {}\n", name, entry.why_not);
     if (entry.ends) {
-      print_out("replayed up to its activation {}: '{}', {}\n", entry.activations, name,
-                *entry.ends);
+      print_recorded("replayed up to its activation {}: '{}', {}\n", entry.activations, name,
+                     *entry.ends);
     }
   }
 }

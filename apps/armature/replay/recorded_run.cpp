@@ -19,6 +19,8 @@ namespace armature {
 namespace {
 
 constexpr std::size_t kMinKept = 8;
+constexpr std::string_view kOwnLibrary =
+    "armature";                             // which writes a chain of hashes into every file
 constexpr std::uint32_t kMaxInputs = 1000;  // of a component
 
 /// Throws std::runtime_error for what is no number up to `max`.
@@ -194,6 +196,10 @@ std::vector<std::string> RecordedRun::problems() const {
   };
   for (const std::string& problem : reader_.problems()) add(problem);
   const McapChain chain = is_read_to_end_ ? reader_.chain() : McapChain{};
+  if (is_read_to_end_ && chain.verdict == McapChain::Verdict::none &&
+      reader_.library().starts_with(kOwnLibrary)) {
+    add("its chain of hashes is gone: whether it was changed cannot be told");
+  }
   for (const std::string& change : chain.changes) {
     add("it was changed after it was written: " + change);
   }

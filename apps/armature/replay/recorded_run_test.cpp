@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <cstring>
 #include <functional>
 #include <span>
 #include <string>
@@ -11,6 +13,7 @@
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/stamp.hpp"
+#include "armature/recording/hash_chain.hpp"
 #include "armature/recording/mcap_writer.hpp"
 #include "armature/recording/recorded_processes.hpp"
 #include "armature/recording/recording_test.hpp"
@@ -111,6 +114,15 @@ TEST(RecordedRun, ThatWasChangedAfterItWasWrittenSaysSoThoughNoChecksumTells) {
                 kChecksumBytes, '\0');
   file.replace(bytes);
   EXPECT_THAT(problems(), testing::AllOf(told("chunk 1"), told("the summary")));
+  constexpr auto kLink = static_cast<mcap::Op>(ChainRecord::kOp);
+  for (auto links = places_of(kLink, bytes); !links.empty(); links.pop_back()) {
+    std::uint64_t size = 0;
+    std::memcpy(&size, &bytes[links.back() + 1], sizeof size);
+    bytes.erase(links.back(), kHead + size);
+  }
+  file.replace(bytes);
+  EXPECT_THAT(problems(), testing::Contains("its chain of hashes is gone: whether it was changed "
+                                            "cannot be told"));
 }
 
 }  // namespace

@@ -87,7 +87,10 @@ Expected<Volume> volume_from(std::istream& in) {
   auto header = read_nrrd_header(in);
   if (!header) return tl::unexpected{header.error()};
   const NumberType* type = type_named(header->type);
-  if (!type) return refuse(fmt::format("the type '{}' is not read", header->type));
+  if (!type) {
+    constexpr std::size_t kShown = 200;
+    return refuse(fmt::format("the type '{}' is not read", header->type.substr(0, kShown)));
+  }
   if (type->bytes > 1 && !header->big_endian) {
     return refuse(
         fmt::format("its header has no 'endian', and numbers of type '{}' need it", header->type));

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "armature/messages/std_msgs.hpp"
@@ -62,14 +63,29 @@ CommonStart::CommonStart(Transport& transport, const std::string& deployment, st
   topic_.attach(std::move(*writer));
 }
 
+bool CommonStart::all_have_met() {
+  const auto has_met = [](const Other& other) { return other.has_met.load(); };
+  if (is_told_ && std::ranges::all_of(others_, has_met)) all_have_met_ = true;
+  if (all_have_met_) return true;
+  for (Other& other : others_) {
+    const bool is_there = other.reader->peers() > 0;
+    if (std::exchange(other.was_there, is_there) && !is_there) other.has_met = false;
+  }
+  return false;
+}
+
 std::optional<std::string> CommonStart::waiting(Time now) {
   if (!std::exchange(is_told_, true)) topic_.publish(topic_.loan(), now);
-  for (const Other& other : others_) {
-    if (other.has_met) continue;
-    return fmt::format("process '{}' has not met all that it exchanges topics with", other.process);
+  const bool have_all_met = all_have_met();
+  most_informed_ = std::max(have_all_met ? most_informed_ : 0, writer_->peers());
+  if (!have_all_met) {
+    const auto other =
+        std::ranges::find(others_, false, [](const Other& o) { return o.has_met.load(); });
+    return fmt::format("process '{}' has not met all that it exchanges topics with",
+                       other == others_.end() ? others_.front().process : other->process);
   }
   const int count = static_cast<int>(others_.size());
-  if (writer_->peers() >= count && writer_->acknowledged(Duration{0})) return std::nullopt;
+  if (most_informed_ >= count && writer_->acknowledged(Duration{0})) return std::nullopt;
   return fmt::format("not every process has heard that '{}' has met all", process_);
 }
 

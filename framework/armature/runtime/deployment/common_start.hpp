@@ -31,6 +31,10 @@ class CommonStart {
   CommonStart(const CommonStart&) = delete;
   CommonStart& operator=(const CommonStart&) = delete;
 
+  /// Whether this process and the others have all said that they have met all. From then on a
+  /// process that leaves, since its run is over, is not waited for. Before it, the word of one that
+  /// leaves counts no more: one that takes its place has met nobody yet.
+  bool all_have_met();
   /// Which process it waits for, now that this one has met the others on all of its topics, at
   /// `now`; nothing: it may start.
   std::optional<std::string> waiting(Time now);
@@ -40,13 +44,15 @@ class CommonStart {
     explicit Other(std::string name) : process{std::move(name)} {}
     std::string process;
     std::atomic<bool> has_met{false};  // set on a DDS thread
+    bool was_there = false;
     std::unique_ptr<RemoteReader> reader;
   };
 
   std::string process_;
   Topic topic_;
   RemoteWriter* writer_ = nullptr;  // the topic's
-  bool is_told_ = false;
+  bool is_told_ = false, all_have_met_ = false;
+  int most_informed_ = 0;  // how many had met this one, since all have met
   std::deque<Other> others_;
 };
 

@@ -21,8 +21,11 @@ struct LateNetwork {
   std::set<std::string> has_heard;  // processes that get what is sent
   std::map<std::string, std::function<void(SampleRef)>> readers;  // by process
   std::set<std::string> sent;  // topics, each with a sample that is kept for who comes late
+  std::set<std::string> gone;  // processes, with what they sent
 
   void deliver() {
+    for (const std::string& process : gone)
+      std::erase_if(sent, [&](const std::string& topic) { return topic.ends_with("/" + process); });
     for (const std::string& topic : sent) {
       for (const auto& [process, reader] : readers) {
         if (has_heard.contains(process) && !topic.ends_with("/" + process)) reader({});
@@ -37,7 +40,9 @@ class LateWriter final : public RemoteWriter {
       : network_{network}, process_{std::move(process)}, topic_{std::move(topic)} {}
   void offer(const SampleRef&) override { network_.sent.insert(topic_); }
   int matched_readers() const override { return peers(); }
-  int peers() const override { return network_.has_met.contains(process_) ? 1 : 0; }
+  int peers() const override {
+    return network_.has_met.contains(process_) && network_.gone.empty() ? 1 : 0;
+  }
   std::uint64_t dropped() const override { return 0; }
   std::vector<Watcher> who_watches() const override { return {}; }
   bool acknowledged(Duration) override {
@@ -50,9 +55,16 @@ class LateWriter final : public RemoteWriter {
 };
 
 class LateReader final : public RemoteReader {
-  int writers() const override { return 0; }
-  int peers() const override { return 0; }
+ public:
+  LateReader(const LateNetwork& network, std::string topic)
+      : network_{network}, topic_{std::move(topic)} {}
+  int writers() const override { return peers(); }
+  int peers() const override { return network_.sent.contains(topic_) ? 1 : 0; }
   std::vector<RefusedSamples> refused() const override { return {}; }
+
+ private:
+  const LateNetwork& network_;
+  std::string topic_;
 };
 
 class LateTransport final : public Transport {
@@ -63,9 +75,9 @@ class LateTransport final : public Transport {
     return std::make_unique<LateWriter>(network_, process_, topic.name);
   }
   Expected<std::unique_ptr<RemoteReader>> subscribe(
-      const TopicSpec&, bool, std::function<void(SampleRef)> deliver) override {
+      const TopicSpec& topic, bool, std::function<void(SampleRef)> deliver) override {
     network_.readers[process_] = std::move(deliver);
-    return std::make_unique<LateReader>();
+    return std::make_unique<LateReader>(network_, topic.name);
   }
 
  private:
@@ -118,6 +130,32 @@ TEST_F(CommonStartTest, WhoHasNotMetTheOtherOneDoesNotTakeItForInformed) {
   EXPECT_THAT(main_waits(), Optional(StrEq("not every process has heard that 'main' has met all")));
   network_.has_met = {"main", "aside"};
   EXPECT_EQ(main_waits(), std::nullopt);
+}
+
+TEST_F(CommonStartTest, TheWordOfAProcessThatIsGoneIsNotThatOfWhoTakesItsPlace) {
+  network_.has_met = {"aside"};
+  network_.has_heard = {"main", "aside"};
+  aside_waits();
+  network_.deliver();
+  EXPECT_FALSE(main_.all_have_met()) << "it has not met all itself";
+  network_.gone = {"aside"};
+  network_.deliver();
+  EXPECT_FALSE(main_.all_have_met());
+  network_.gone = {};
+  network_.has_met = {"main", "aside"};
+  EXPECT_THAT(main_waits(),
+              Optional(StrEq("process 'aside' has not met all that it exchanges topics with")));
+}
+
+TEST_F(CommonStartTest, WhoHasSaidSoAndHeardAllBeginsThoughAnotherOneIsOverAlready) {
+  network_.has_met = network_.has_heard = {"main", "aside"};
+  main_waits();
+  EXPECT_EQ(aside_waits(), std::nullopt);
+  network_.deliver();
+  EXPECT_TRUE(main_.all_have_met());
+  network_.gone = {"aside"};
+  EXPECT_TRUE(main_.all_have_met());
+  EXPECT_EQ(main_.waiting(Time{2}), std::nullopt);
 }
 
 ComponentConfig component(const std::string& process, const std::vector<std::string>& reads,

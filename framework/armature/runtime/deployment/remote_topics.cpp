@@ -79,9 +79,10 @@ void RemoteTopics::start_together() {
 }
 
 std::optional<std::string> RemoteTopics::waiting(Time now) {
+  const bool may_leave = common_start_ && common_start_->all_have_met();
   const auto link =
       std::ranges::find_if_not(links_, [](const Link& candidate) { return candidate.met(); });
-  if (link != links_.end()) return link->text;
+  if (link != links_.end() && !may_leave) return link->text;
   return common_start_ ? common_start_->waiting(now) : std::nullopt;
 }
 

@@ -174,8 +174,8 @@ TEST_F(RunForAScript, FilesOfAnOlderRunGoFromTheFolderAndThoseOfOthersStay) {
   fs::create_directories(folder_.path());
   std::ofstream{folder_ / "notes.txt"} << "mine";
   const auto first =
-      run_command({armature(), "run", source_file("configs/sr1_biopsy.yaml"), "--json",
-                   "--report", folder_.path(), "--domain", std::to_string(domain_)});
+      run_command({armature(), "run", source_file("configs/sr1_biopsy.yaml"), "--json", "--report",
+                   folder_.path(), "--domain", std::to_string(domain_)});
   ASSERT_EQ(first.exit_code, 0) << first.err;
   for (const char* name : {"arm_joints.csv", "arm_joints.svg", "report.html", "run.mcap"}) {
     EXPECT_TRUE(fs::exists(folder_ / name)) << name;

@@ -141,6 +141,7 @@ class AnyOperator : public testing::TestWithParam<System> {
   void expect_rest_after_an_abort(const OperatorChronicle& run) const;
   void expect_needle_on_its_line(const OperatorChronicle& run) const;
   void expect_drill_on_its_lines(const OperatorChronicle& run) const;
+  static void expect_one_plan(const OperatorChronicle& run);
   static void expect_answers(const OperatorChronicle& run);
   void expect_end(const OperatedRun& operated) const;
   void expect_stops_that_stay(const OperatorChronicle& run) const;
@@ -300,6 +301,18 @@ void AnyOperator::expect_drill_on_its_lines(const OperatorChronicle& run) const 
   }
 }
 
+void AnyOperator::expect_one_plan(const OperatorChronicle& run) {
+  constexpr double kSame_m = 1e-6;
+  const OperatorChronicle::Goal* first = nullptr;
+  for (const auto& goal : run.goals) {
+    if (!goal.focus) continue;
+    if (!first) first = &goal;
+    EXPECT_LT((goal.pose.translation() - first->pose.translation()).norm(), kSame_m)
+        << "at " << goal.time_s << " s the needle goes to another target";
+    EXPECT_LT((*goal.focus - *first->focus).norm(), kSame_m) << "by another entry";
+  }
+}
+
 // 4.
 
 void AnyOperator::expect_answers(const OperatorChronicle& run) {
@@ -379,6 +392,7 @@ TEST_P(AnyOperator, LetsNoArmMoveOtherwiseThanItMay) {
     if (GetParam().body == Body::incision) {
       EXPECT_LT(operated.run.figure("incision_deviation_mm"), 0.2);
     }
+    if (GetParam().plan_changes) expect_one_plan(operated.chronicle);
     expect_answers(operated.chronicle);
     expect_end(operated);
     if (!GetParam().hand_leads) expect_stops_that_stay(operated.chronicle);
@@ -454,7 +468,7 @@ std::vector<System> systems() {
                             "components.planner={plugin: test/second_thoughts, in: {planned: "
                             "head/planned}}"};
       replanned.plan_changes = true;
-      replanned.ends_well = false;
+      replanned.seeds = 20;
       all.push_back(replanned);
     }
     if (all[i].body != Body::jaw) continue;

@@ -10,7 +10,8 @@
 
 namespace armature {
 
-/// As print_out, of lines with names that a recording tells, which a terminal must not obey.
+/// Prints lines with names that a recording tells; a terminal shows their control characters and
+/// does not obey them.
 template <class... Values>
 void print_recorded(fmt::format_string<Values...> format, Values&&... values) {
   print_out("{}", terminal_lines(fmt::format(format, std::forward<Values>(values)...), 0));

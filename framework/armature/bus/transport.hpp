@@ -37,7 +37,8 @@ class RemoteWriter {
   /// encodes, drops the oldest waiting sample when the queue is full (and counts it).
   virtual void offer(const SampleRef& sample) = 0;
   virtual int matched_readers() const = 0;
-  /// How many readers of the deployment's other processes it has met that are there.
+  /// Counts the readers of the deployment's other processes that it has met and that are still
+  /// there.
   virtual int peers() const = 0;
   virtual std::uint64_t dropped() const = 0;
   /// Who has matched so far. Any thread.
@@ -58,7 +59,8 @@ class RemoteReader {
  public:
   virtual ~RemoteReader() = default;
   virtual int writers() const = 0;
-  /// How many writers of the deployment's other processes it has met that are there.
+  /// Counts the writers of the deployment's other processes that it has met and that are still
+  /// there.
   virtual int peers() const = 0;
   /// What was refused so far, by writer. Any thread.
   virtual std::vector<RefusedSamples> refused() const = 0;

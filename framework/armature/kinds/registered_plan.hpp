@@ -30,7 +30,7 @@ inline bool is_asked_of(const msg::ImplantPlan& plan, const msg::RegistrationReq
 template <class Plan>
 class RegisteredPlan {
  public:
-  /// What is not as it was.
+  /// Tells which of the two has changed in this activation.
   struct News {
     bool plan = false, registration = false;
   };

@@ -26,8 +26,8 @@ ReasonText describe(const LimitExcess& excess, const RobotModel& model, std::str
 /// Where the driver of an arm sets it, step by step. A command that can be followed is followed
 /// exactly, and carried on while no other comes; one that asks for more than the limits is followed
 /// as fast as they allow, without overshoot at the position limits, and so is one that comes after
-/// others that were lost or late. A joint that is found beyond a
-/// limit may come back, but go no further. Real-time safe after construction.
+/// others that were lost or late. A joint that is found beyond a limit may come back, but go no
+/// further. Real-time safe after construction.
 class SetPoint {
  public:
   /// At rest at `q`. A command is carried on for no longer than `timeout`; `period`: how often

@@ -115,6 +115,8 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
     spec.priority = static_cast<int>(map.integer("priority"));
     if (const auto cpu = map.optional_integer("cpu")) spec.cpu = static_cast<int>(*cpu);
     spec.lock_memory = map.flag("lock_memory");
+    spec.sim_pause = seconds(map.number("sim_pause_s"));
+    spec.sim_seed = static_cast<std::uint64_t>(map.integer("sim_seed"));
     map.finish();
     executors.push_back(std::move(spec));
   }

@@ -156,7 +156,18 @@ const std::vector<KeySpec>& executor_keys() {
       {.name = "lock_memory",
        .type = Type::flag,
        .doc = "Keep the process in memory.",
-       .fallback = default_value("false")}};
+       .fallback = default_value("false")},
+      {.name = "sim_pause_s",
+       .doc = "On the simulated clock, how long its thread is held up at most, again and again.",
+       .fallback = default_value("0"),
+       .min = 0,
+       .max = kLongestWait_s,
+       .because = "0 is never"},
+      {.name = "sim_seed",
+       .type = Type::integer,
+       .doc = "Draws when, and for how long.",
+       .fallback = default_value("1"),
+       .min = 0}};
   return kKeys;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -15,6 +16,8 @@ struct ExecutorSpec {
   int priority = 0;                // SCHED_FIFO 1..99; 0: the normal scheduler
   std::optional<int> cpu;          // pinned to this one
   bool lock_memory = false;        // the process keeps all its memory in RAM
+  Duration sim_pause{0};           // the longest of its thread's on the simulated clock; 0: none
+  std::uint64_t sim_seed = 1;      // draws them
 };
 
 }  // namespace armature

@@ -7,19 +7,20 @@ namespace armature {
 
 void LockstepScheduler::assign(const ExecutorSpec& executor,
                                const std::vector<ComponentRunner*>& runners) {
+  SimulatedPauses& pauses = pauses_.emplace_back(executor);
   for (ComponentRunner* runner : runners) {
-    add(*runner, executor.period ? executor.period : runner->period());
+    add(*runner, pauses, executor.period ? executor.period : runner->period());
   }
 }
 
-void LockstepScheduler::add(ComponentRunner& runner, std::optional<Duration> period) {
-  entries_.push_back({&runner, period, std::nullopt});
+void LockstepScheduler::add(ComponentRunner& runner, SimulatedPauses& pauses,
+                            std::optional<Duration> period) {
+  entries_.push_back({.runner = &runner, .pauses = &pauses, .period = period});
   Entry& entry = entries_.back();
   runner.on_triggered([this, &entry] {
-    const Time now = clock_->now();
-    if (entry.triggered_at == now) return;
-    entry.triggered_at = now;
-    schedule({.time = now, .place = entry.runner->place(), .activate = &entry});
+    if (entry.is_triggered) return;
+    entry.is_triggered = true;
+    schedule({.time = clock_->now(), .place = entry.runner->place(), .activate = &entry});
   });
   if (period) {
     schedule({.time = {}, .place = runner.place(), .activate = &entry, .periodic = true});
@@ -49,16 +50,23 @@ void LockstepScheduler::handle(Event& event) {
     return;
   }
   Entry& entry = *event.activate;
+  if (const Time awake = entry.pauses->awake(event.time); awake > event.time) {
+    event.time = awake;
+    schedule(std::move(event));
+    return;
+  }
   if (event.periodic) {
-    schedule({.time = event.time + *entry.period,
+    const auto missed = (event.time - event.due) / *entry.period;
+    entry.runner->count_overruns(static_cast<std::uint64_t>(missed));
+    schedule({.time = event.due + *entry.period * (missed + 1),
               .place = event.place,
               .activate = &entry,
               .periodic = true});
   } else {
-    entry.triggered_at.reset();
+    entry.is_triggered = false;
   }
   running_ = &entry;
-  entry.runner->activate(event.time);
+  entry.runner->activate(event.time, event.time - event.due);
   running_ = nullptr;
 }
 

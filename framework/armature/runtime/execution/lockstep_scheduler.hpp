@@ -10,6 +10,7 @@
 
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/execution/scheduler.hpp"
+#include "armature/runtime/execution/simulated_pauses.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
@@ -32,11 +33,13 @@ class LockstepScheduler final : public Scheduler {
  private:
   struct Entry {
     ComponentRunner* runner;
+    SimulatedPauses* pauses;  // of its executor
     std::optional<Duration> period;
-    std::optional<Time> triggered_at;  // an activation by trigger is already queued for then
+    bool is_triggered = false;  // an activation by trigger is already queued
   };
   struct Event {
     Time time;
+    Time due = time;  // without a pause of its executor
     int place;
     std::uint64_t sequence = 0;
     Entry* activate = nullptr;  // else: hand over `sample` on `topic`
@@ -49,11 +52,12 @@ class LockstepScheduler final : public Scheduler {
       return std::tie(a.time.ns, a.place, a.sequence) > std::tie(b.time.ns, b.place, b.sequence);
     }
   };
-  void add(ComponentRunner& runner, std::optional<Duration> period);
+  void add(ComponentRunner& runner, SimulatedPauses& pauses, std::optional<Duration> period);
   void schedule(Event event);
   void handle(Event& event);
 
   SimulatedClock* clock_;
+  std::deque<SimulatedPauses> pauses_;  // of every executor
   std::deque<Entry> entries_;
   std::priority_queue<Event, std::vector<Event>, Later> events_;
   std::uint64_t next_sequence_ = 0;

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <set>
 #include <thread>
 
 #include "armature/runtime/execution/lockstep_scheduler.hpp"
@@ -33,6 +34,47 @@ TEST(LockstepScheduler, ActivatesInTheOrderOfTimeThenGraph) {
   scheduler.run([&] { return log.size() >= 5; });
   EXPECT_EQ(log,
             (std::vector<std::string>{"early@0", "late@0", "early@10", "early@20", "late@20"}));
+}
+
+TEST(LockstepScheduler, WhatAPauseOfItsThreadHoldsUpComesLateButNeverInABurst) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    SimulatedClock clock;
+    LockstepScheduler scheduler{clock};
+    std::vector<std::int64_t> log;
+    const auto record = [&](Time now) { log.push_back(now.ns); };
+    const auto first = make_runner("first", 0, record), second = make_runner("second", 1, record);
+    scheduler.assign(
+        {.name = "a", .period = Duration{10}, .sim_pause = Duration{25}, .sim_seed = seed},
+        {first.get(), second.get()});
+    scheduler.run([&] { return clock.now().ns >= 10'000 && log.size() % 2 == 0; });
+    EXPECT_NEAR(static_cast<double>(first->activations() + first->overruns()), 1001, 3);
+    EXPECT_GT(first->overruns(), 50U) << "seed " << seed;
+    std::size_t late = 0;
+    for (std::size_t i = 0; i < log.size(); i += 2) {
+      EXPECT_EQ(log[i], log[i + 1]) << "one thread is held up for both, seed " << seed;
+      if (i > 0) EXPECT_NE(log[i] / 10, log[i - 1] / 10) << "seed " << seed;
+      if (log[i] % 10 != 0) ++late;
+    }
+    EXPECT_GT(late, 50U) << "seed " << seed;
+    EXPECT_NEAR(first->times().lateness.counts().figures().max_s, 25e-9, 3e-9);
+  }
+}
+
+TEST(LockstepScheduler, WhatTriggersAHeldUpThreadAgainAndAgainActivatesItOnce) {
+  SimulatedClock clock;
+  LockstepScheduler scheduler{clock};
+  const MessageType type = number_type();
+  Topic topic{{.name = "rt/n", .type = &type}, 100};
+  const auto source =
+      make_runner("source", 0, [&](Time) { scheduler.publish(topic, topic.loan()); });
+  std::vector<std::int64_t> seen;
+  const auto sink = make_runner("sink", 1, [&](Time now) { seen.push_back(now.ns); });
+  topic.connect(sink->inbox().add({.name = "in", .trigger = true}, type));
+  scheduler.assign({.name = "a", .period = Duration{10}}, {source.get()});
+  scheduler.assign({.name = "b", .period = {}, .sim_pause = Duration{1000}}, {sink.get()});
+  scheduler.run([&] { return clock.now().ns >= 100'000; });
+  EXPECT_LT(sink->activations(), 0.9 * static_cast<double>(source->activations()));
+  EXPECT_EQ(std::set(seen.begin(), seen.end()).size(), seen.size());
 }
 
 TEST(LockstepScheduler, DeliversAtOnceWithoutLatencyAndLaterWithOne) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 
 namespace armature {
 namespace {
@@ -42,6 +43,8 @@ SetPoint::SetPoint(const RobotModel& model, Duration timeout, Duration period, c
     : model_{model},
       timeout_s_{to_seconds(timeout)},
       period_s_{to_seconds(period)},
+      step_s_{period_s_},
+      before_s_{period_s_},
       q_{q},
       v_{JointVector::Zero(q.size())},
       executed_v_{v_} {}
@@ -50,6 +53,7 @@ double SetPoint::elapsed(Time now) {
   const double dt = last_ ? to_seconds(now - *last_) : period_s_;
   if (dt <= 0) return 0;
   last_ = now;
+  before_s_ = std::exchange(step_s_, dt);
   excess_.reset();
   return dt;
 }
@@ -84,6 +88,7 @@ void SetPoint::guide(Time now, const JointVector& q) {
 void SetPoint::be_at(const JointVector& q, const JointVector& v) {
   q_ = q;
   v_ = executed_v_ = v;
+  step_s_ = period_s_;
   last_command_.reset();
 }
 
@@ -105,23 +110,23 @@ void SetPoint::follow(const ServoCommand& command, Time now, double dt) {
   const bool carried_to_now = old_s <= timeout_s_;
   const bool again = last_command_ && command.stamp == last_command_->stamp &&
                      command.q == last_command_->q && command.v == last_command_->v;
+  const bool goes_on = again || (last_command_ && command.stamp > last_command_->stamp);
   for (int i = 0; i < model_.dof(); ++i) {
     const auto joint = static_cast<std::size_t>(i);
+    const bool streaming = goes_on && on_stream_[joint] && (age_s > 0 || rejoins_in_[joint] > 0);
     const Step wanted{.q = command.q[i] + command.v[i] * age_s,
                       .v = command.v[i],
                       .dt = dt,
-                      .in_step = age_s == 0};
+                      .in_step = age_s == 0 && !streaming};
     auto found = outside_limits(i, wanted);
     if (!found && again) found = overrun(i, wanted);
-    if (!found) {
-      const bool streaming = !wanted.in_step && last_command_ && on_stream_[joint] &&
-                             (again || command.stamp > last_command_->stamp);
-      found = streaming ? jump_in_stream(i, command) : jump(i, wanted);
-    }
+    if (!found) found = streaming ? jump_in_stream(i, command) : jump(i, wanted);
     on_stream_[joint] = !found && carried_to_now;  // else the arm is behind the stream
     if (found && !excess_) excess_ = found;
     // A stream that keeps the limits is found elsewhere than it was carried on to, after a loss.
-    if (found || is_beyond_a_step(i, wanted)) {
+    const bool is_held_back = found || is_beyond_a_step(i, wanted);
+    rejoins_in_[joint] = age_s > 0 || is_held_back ? 2 : std::max(rejoins_in_[joint] - 1, 0);
+    if (is_held_back) {
       move_within_limits(i, wanted);
       continue;
     }
@@ -158,7 +163,8 @@ double SetPoint::velocity(int joint, const Step& wanted) const {
 
 std::optional<LimitExcess> SetPoint::jump(int joint, const Step& wanted) const {
   const double v = velocity(joint, wanted);
-  const double window = wanted.in_step ? wanted.dt : wanted.dt + period_s_;
+  const double window =
+      wanted.in_step ? apart(wanted.dt) : wanted.dt + std::max(before_s_, period_s_);
   if (auto found = sudden(joint, v - executed_v_[joint], window)) return found;
   if (wanted.in_step) return std::nullopt;
   return displaced(joint, wanted.q - q_[joint] - 0.5 * (executed_v_[joint] + v) * wanted.dt,
@@ -168,7 +174,7 @@ std::optional<LimitExcess> SetPoint::jump(int joint, const Step& wanted) const {
 bool SetPoint::is_beyond_a_step(int joint, const Step& wanted) const {
   const double v = (wanted.q - q_[joint]) / wanted.dt;
   return std::abs(v) > model_.max_velocity()[joint] * (1 + kRounding) ||
-         sudden(joint, v - executed_v_[joint], wanted.dt);
+         sudden(joint, v - executed_v_[joint], apart(wanted.dt));
 }
 
 std::optional<LimitExcess> SetPoint::jump_in_stream(int joint, const ServoCommand& command) const {
@@ -194,11 +200,14 @@ std::optional<LimitExcess> SetPoint::displaced(int joint, double gap, double win
   return sudden(joint, 2 * gap / window, window);
 }
 
+/// The step before had its mean velocity at its middle.
 void SetPoint::stop(double dt) {
   for (int i = 0; i < model_.dof(); ++i) {
-    const double change = model_.max_acceleration()[i] * dt;
-    const double v = executed_v_[i] - std::clamp(executed_v_[i], -change, change);
-    advance(i, v, dt);
+    const double a = model_.max_acceleration()[i];
+    const double begin = std::max(std::abs(executed_v_[i]) - 0.5 * a * before_s_, 0.0);
+    const double moves_s = std::min(dt, begin / a);
+    const double way = (begin - 0.5 * a * moves_s) * moves_s;
+    advance(i, std::copysign(way / dt, executed_v_[i]), dt);
   }
 }
 
@@ -211,7 +220,8 @@ void SetPoint::move_within_limits(int joint, const Step& wanted) {
   double v = std::clamp(wanted.v + approach, -v_limit, v_limit);
   v = std::min(v, stopping_velocity(highest(joint) - q_[joint], a, dt));
   v = std::max(v, -stopping_velocity(q_[joint] - lowest(joint), a, dt));
-  v = std::clamp(v, executed_v_[joint] - a * dt, executed_v_[joint] + a * dt);
+  const double change = a * apart(dt);
+  v = std::clamp(v, executed_v_[joint] - change, executed_v_[joint] + change);
   advance(joint, v, dt);
 }
 

@@ -23,7 +23,9 @@ struct LimitExcess {
 /// Real-time safe.
 ReasonText describe(const LimitExcess& excess, const RobotModel& model, std::string_view who);
 
-/// Where the driver of an arm sets it, step by step. A command that can be followed is followed
+/// Where the driver of an arm sets it, step by step, also where its thread is late now and then: a
+/// velocity is the mean of a step, and two of them differ by no more than the acceleration limit
+/// times the time between the middles of their steps. A command that can be followed is followed
 /// exactly, and carried on while no other comes; one that asks for more than the limits is followed
 /// as fast as they allow, without overshoot at the position limits, and so is one that comes after
 /// others that were lost or late. A joint that is found beyond a limit may come back, but go no
@@ -56,7 +58,7 @@ class SetPoint {
 
  private:
   /// One joint's part of a command, for one step of `dt`; `in_step`: the command is of this
-  /// instant.
+  /// instant, and so were those that the arm's last two positions are of.
   struct Step {
     double q = 0, v = 0, dt = 0;
     bool in_step = true;
@@ -65,6 +67,8 @@ class SetPoint {
   double elapsed(Time now);
   void follow(const ServoCommand& command, Time now, double dt);
   void stop(double dt);
+  /// Between the middles of this step and the one before.
+  double apart(double dt) const { return 0.5 * (before_s_ + dt); }
   double lowest(int joint) const;
   double highest(int joint) const;
   double velocity(int joint, const Step& wanted) const;
@@ -87,11 +91,15 @@ class SetPoint {
 
   const RobotModel& model_;
   double timeout_s_, period_s_;
+  double step_s_, before_s_;  // the last step, and the one before it
   JointVector q_, v_;
   JointVector executed_v_;  // of the last step, what limits are kept against
   std::optional<Time> last_;
   std::optional<ServoCommand> last_command_;  // while commands come
-  std::array<bool, kMaxJoints> on_stream_{};  // joints that follow them exactly
+  std::array<bool, kMaxJoints> on_stream_{};  // joints that follow them
+  // Steps until a joint's last two positions are those of commands of their instants: the arm's
+  // velocity is the stream's then.
+  std::array<int, kMaxJoints> rejoins_in_{};
   std::optional<LimitExcess> excess_;
   Time held_back_at_;
   ReasonText why_;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -174,6 +175,21 @@ TEST_F(SetPointTest, BehindALossItIsExactlyOnTheStreamAgainWhileItMoves) {
   }
 }
 
+TEST_F(SetPointTest, TellsNoTroubleOfAStreamThatKeepsTheLimitsWhereSomeOfItIsLost) {
+  std::mt19937 random{7};
+  SCOPED_TRACE("seed 7");
+  std::uniform_int_distribution<int> lost{0, 9};
+  const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
+  ServoCommand newest = command(0);
+  for (int k = 1; k <= 1200; ++k) {
+    const double t = 0.001 * k;
+    if (lost(random) > 4) newest = command(move.position(t), move.velocity(t));
+    step(newest);
+    ASSERT_FALSE(arm_.excess()) << t << " s: " << describe(*arm_.excess(), model_, "it").view();
+  }
+  EXPECT_NEAR(arm_.position()[0], 0.8, 1e-6);
+}
+
 /// A driver whose thread wakes at instants of its own follows a motion that uses all of the
 /// acceleration: it keeps near, and does not come beyond the end.
 TEST(SetPoint, FollowsAStreamAtItsLimitsThoughItsOwnStepsAreUneven) {
@@ -197,6 +213,66 @@ TEST(SetPoint, FollowsAStreamAtItsLimitsThoughItsOwnStepsAreUneven) {
       ASSERT_NEAR(arm.position()[0], move.position(now), k < 590 ? 1e-6 : 5e-5) << k << " ms";
     }
     EXPECT_NEAR(arm.position()[0], kWay, 1e-9);
+  }
+}
+
+/// Instants of a thread that is held up now and then, by up to 50 ms, and catches up at once.
+class HeldUpThread {
+ public:
+  explicit HeldUpThread(unsigned seed) : random_{seed} {}
+  double next_step_s() {
+    return to_seconds(seconds(1e-6 * std::pow(5e4, part_(random_) * part_(random_))));
+  }
+  double part() { return part_(random_); }
+
+ private:
+  std::mt19937 random_;
+  std::uniform_real_distribution<double> part_{0, 1};
+};
+
+TEST(SetPoint, ExecutesAReachableReferenceExactlyWhateverItsStepsAre) {
+  const RobotModel model = one_joint();
+  const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    HeldUpThread thread{seed};
+    SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};
+    for (Time now = Time{} + seconds(0.001); now < Time{} + seconds(1.2);
+         now = now + seconds(thread.next_step_s())) {
+      const double t = to_seconds(now - Time{});
+      arm.step(now, ServoCommand{now, value(move.position(t)), value(move.velocity(t))});
+      ASSERT_EQ(arm.position()[0], move.position(t)) << t << " s";
+      ASSERT_FALSE(arm.excess()) << t << " s";
+    }
+  }
+}
+
+TEST(SetPoint, NeverExceedsLimitsWhateverIsCommandedAndItsStepsAre) {
+  const RobotModel model = one_joint();
+  for (const unsigned seed : {1U, 2U, 3U}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    HeldUpThread thread{seed};
+    SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};
+    std::optional<ServoCommand> command;
+    Time now;
+    arm.step(now, command);
+    double v_before = 0, before_s = 0.001;
+    for (int k = 0; k < 20'000; ++k) {
+      const double dt = thread.next_step_s(), q = arm.position()[0];
+      now = now + seconds(dt);
+      if (thread.part() < 0.05) {
+        command = ServoCommand{now, value(2 * thread.part() - 1), value(6 * thread.part() - 3)};
+      }
+      if (thread.part() < 0.01) command.reset();
+      arm.step(now, command);
+      const double v = (arm.position()[0] - q) / dt, rounded = 1e-15 / std::min(dt, before_s);
+      ASSERT_LE(std::abs(arm.position()[0]), 1);
+      ASSERT_LE(std::abs(v), 2.5 + 1e-6 + rounded) << k;
+      ASSERT_LE(std::abs(v - v_before), 8 * 0.5 * (dt + before_s) + 1e-6 + rounded)
+          << k << ": " << dt << " s behind " << before_s << " s, at " << q << ", " << v;
+      v_before = v;
+      before_s = dt;
+    }
   }
 }
 

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Operators who say anything at any time, and arms that something stops meanwhile, by where the arm
-// truly is: 1. it rests while the task asks or is paused, 2. after an abort it comes to where it
-// shall and moves no more, 3. a tool in a body goes along its line only, 4. every word is answered,
-// and the run comes to its end, 5. the same operator gives the same run, 6. an arm that is stopped
-// stays so, and a rearm moves nothing. ARMATURE_OPERATORS: so many of every system, from number
-// ARMATURE_FIRST_OPERATOR on; `tools/test --full` has others every day.
+// Operators who say anything at any time, arms that something stops meanwhile, and threads that are
+// held up, by where the arm truly is: 1. it rests while the task asks or is paused, 2. after an
+// abort it comes to where it shall and moves no more, 3. a tool in a body goes along its line
+// only, 4. every word is answered, and the run comes to its end, 5. the same operator gives the
+// same run, 6. an arm that is stopped stays so, and a rearm moves nothing. ARMATURE_OPERATORS: so
+// many of every system, from number ARMATURE_FIRST_OPERATOR on; `tools/test --full` has others
+// every day.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -18,6 +19,7 @@
 #include "armature/values/file_content.hpp"
 #include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
+#include "held_up_threads.hpp"
 #include "operator_chronicle.hpp"
 #include "tests/dds_domain.hpp"
 #include "tests/environment_number.hpp"
@@ -100,6 +102,10 @@ OperatedRun run_with(const System& system, int seed) {
   }
   if (system.tracker_fails) {
     const auto settings = tracker_settings(seed);
+    start.settings.insert(start.settings.end(), settings.begin(), settings.end());
+  }
+  if (seed % 3 == 2) {
+    const auto settings = held_up_threads(seed, 0.02, 0.03);
     start.settings.insert(start.settings.end(), settings.begin(), settings.end());
   }
   start.options.environment["ARMATURE_PLUGIN_PATH"] = TEST_PLUGINS;

@@ -108,8 +108,9 @@ class AnyHand final : public Component {
 
   void watch() {
     for (std::size_t i = 0; i < ports_.follower_js.size(); ++i) {
-      const auto& q = ports_.follower_js[i].position_();
-      write("arm {:.3f} {:.17g}", time(), fmt::join(q, " "));
+      const msg::JointState& arm = ports_.follower_js[i];
+      write("arm {:.9f} {:.17g}", to_seconds(stamp_of(arm.header_().stamp_()) - *start_),
+            fmt::join(arm.position_(), " "));
     }
     for (std::size_t i = 0; i < ports_.goal.size(); ++i) {
       const msg::MotionGoal& goal = ports_.goal[i];

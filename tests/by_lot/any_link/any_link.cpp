@@ -131,7 +131,7 @@ class AnyLink final : public Component {
     if (changes) tell("back", back_, now);
     for (std::size_t i = 0; i < ports_.state.size(); ++i) see(ports_.state[i], now);
     for (std::size_t i = 0; i < ports_.true_js.size(); ++i) {
-      write("arm {:.4f} {:.17g}", time_of(ports_.true_js[i]),
+      write("arm {:.9f} {:.17g}", time_of(ports_.true_js[i]),
             fmt::join(ports_.true_js[i].position_(), " "));
     }
     commands_.take(ports_.servo_jp, there_, now);
@@ -151,7 +151,7 @@ class AnyLink final : public Component {
     const double stamp_s = time_of(told);
     if (stamp_s <= newest_s_) return;
     newest_s_ = stamp_s;
-    write("told {:.4f} {:.4f} {:.17g} {:.17g}", to_seconds(now - *start_), stamp_s,
+    write("told {:.9f} {:.9f} {:.17g} {:.17g}", to_seconds(now - *start_), stamp_s,
           fmt::join(told.position_(), " "), fmt::join(told.velocity_(), " "));
   }
 

@@ -12,10 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <random>
 #include <stdexcept>
 
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/values/chance.hpp"
 #include "armature/values/file_content.hpp"
 #include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
@@ -57,10 +57,8 @@ struct OperatedRun {
 
 /// Bodies that are hidden for a while, a jaw that moves and a tracker that is knocked aside.
 std::vector<std::string> tracker_settings(int seed) {
-  std::mt19937_64 chance(seed);
-  const auto up_to = [&](double most) {
-    return most * static_cast<double>(chance() >> 11) * 0x1p-53;
-  };
+  Chance chance(seed);
+  const auto up_to = [&](double most) { return chance.between(0, most); };
   constexpr double kRun_s = 150;
   const std::string params = "components.tracker.params.";
   std::vector<std::string> settings;

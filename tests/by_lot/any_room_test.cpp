@@ -8,9 +8,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 #include <sstream>
 
+#include "armature/values/chance.hpp"
 #include "armature/values/file_content.hpp"
 #include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
@@ -20,9 +20,9 @@ namespace armature::test {
 namespace {
 
 /// Settings of the scene, each of them in some of the rooms only.
-class AnyRoom {
+class AnyRoom : private Chance {
  public:
-  explicit AnyRoom(int seed) : chance_(seed) {
+  explicit AnyRoom(int seed) : Chance(seed) {
     tell("face_seed", 1 + below(500));
     tell("tilt_up_deg", between(-15, 15));
     tell("tilt_side_deg", between(-25, 25));
@@ -64,16 +64,10 @@ class AnyRoom {
   bool moves() const { return moves_; }
 
  private:
-  double between(double from, double to) {
-    return from + (to - from) * static_cast<double>(chance_() >> 11) * 0x1p-53;
-  }
-  bool happens(double probability) { return between(0, 1) < probability; }
-  int below(int count) { return static_cast<int>(between(0, count)); }
   void tell(const std::string& what, const auto& value) {
     settings_.push_back(fmt::format("components.scene.params.{}={}", what, value));
   }
 
-  std::mt19937_64 chance_;
   std::vector<std::string> settings_;
   bool moves_ = false;
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "armature/values/chance.hpp"
+
 namespace armature::bench {
 namespace {
 
@@ -11,7 +13,7 @@ constexpr double kTurn = 2 * std::numbers::pi;
 
 }  // namespace
 
-double unit(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * 0x1p-53; }
+double unit(std::mt19937_64& random) { return share_of(random()); }
 
 Eigen::Quaterniond any_rotation(std::mt19937_64& random) {
   const double u = unit(random), a = kTurn * unit(random), b = kTurn * unit(random);

@@ -2,6 +2,7 @@
 #include "armature/scene/face_traits.hpp"
 
 #include "armature/scene/splitmix.hpp"
+#include "armature/values/chance.hpp"
 
 namespace armature::scene {
 
@@ -10,7 +11,7 @@ FaceTraits traits_of(std::uint64_t seed) {
   std::uint64_t drawn = seed;
   const auto draw = [&] {
     drawn = splitmix(drawn);
-    return static_cast<double>(drawn >> 11) * 0x1p-53;
+    return share_of(drawn);
   };
   const auto between = [&](double low, double high) { return low + (high - low) * draw(); };
   FaceTraits traits;

@@ -22,6 +22,7 @@
 #include "armature/scene/right_camera.hpp"
 #include "armature/scene/scene_renderer.hpp"
 #include "armature/scene/splitmix.hpp"
+#include "armature/values/chance.hpp"
 #include "patient.hpp"
 #include "pose_history.hpp"
 #include "sim_photo_scene_ports.hpp"
@@ -200,7 +201,7 @@ scene::SceneRenderer& PhotoScene::renderer_at(Time stamp) {
 }
 
 PhotoScene::Delivery PhotoScene::draw_delivery() {
-  const double drawn = static_cast<double>(scene::splitmix(seed_ + ++pairs_) >> 11) * 0x1p-53;
+  const double drawn = share_of(scene::splitmix(seed_ + ++pairs_));
   if (drawn < parameters_.dropped) return Delivery::dropped;
   const bool repeats = pairs_ > 1 && drawn < parameters_.dropped + parameters_.repeated;
   return repeats ? Delivery::repeated : Delivery::sound;

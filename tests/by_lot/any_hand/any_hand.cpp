@@ -20,7 +20,6 @@
 #include <limits>
 #include <numbers>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,6 +35,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/chance.hpp"
 #include "test_any_hand_parameters.hpp"
 #include "test_any_hand_ports.hpp"
 
@@ -94,8 +94,8 @@ class AnyHand final : public Component {
   }
 
  private:
-  double share() { return static_cast<double>(chance_() >> 11) * 0x1p-53; }
-  bool happens(double probability) { return share() < probability; }
+  double share() { return chance_.share(); }
+  bool happens(double probability) { return chance_.happens(probability); }
   double about(double most) { return most * (2 * share() - 1); }
   Vector3d any_vector(double most) {
     return Vector3d{about(1), about(1), about(1)}.normalized() * most * share();
@@ -290,7 +290,7 @@ class AnyHand final : public Component {
 
   Parameters parameters_;
   Ports ports_;
-  std::mt19937_64 chance_;
+  Chance chance_;
   std::ofstream chronicle_;
   std::optional<Time> start_;
   Time now_, hold_at_, last_stamp_;

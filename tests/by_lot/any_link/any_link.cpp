@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,6 +22,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/chance.hpp"
 #include "test_any_link_parameters.hpp"
 #include "test_any_link_ports.hpp"
 
@@ -64,9 +64,9 @@ class Weather {
   }
 
  private:
-  double share() { return static_cast<double>(chance_() >> 11) * 0x1p-53; }
+  double share() { return chance_.share(); }
 
-  std::mt19937_64 chance_;
+  Chance chance_;
   double until_s_ = 0.5;  // from the start of the run, which is calm
   double delay_s_ = 0, jitter_s_ = 0, loss_ = 0, doubles_ = 0;
   bool cut_ = false;

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <random>
 #include <stdexcept>
 
 #include "armature/messages/sensor_msgs.hpp"
@@ -11,6 +10,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/chance.hpp"
 #include "test_any_node_parameters.hpp"
 
 namespace armature::test::any_node {
@@ -49,18 +49,16 @@ class AnyNode final : public Component {
  private:
   void mix(double number) { state_ = std::sin(parameters_.gain * (3 * state_ + number)); }
 
-  double up_to_one() { return static_cast<double>(chance_() >> 11) * 0x1p-53; }
-
   void send(Output<msg::JointState>& output, Time now) {
     if (!output.has_subscribers()) mix(3);
-    if (up_to_one() < parameters_.silence) return;
-    for (auto left = chance_() % (parameters_.burst + 1); left > 0; --left) {
+    if (chance_.share() < parameters_.silence) return;
+    for (auto left = chance_.bits() % (parameters_.burst + 1); left > 0; --left) {
       auto loan = output.loan();
       set_stamp(loan->header_().stamp_(), now);
       loan->header_().frame_id_() = fmt::format("{}", steps_);
       loan->position_().clear();
-      for (auto more = chance_() % parameters_.length + 1; more > 0; --more) {
-        mix(up_to_one());
+      for (auto more = chance_.bits() % parameters_.length + 1; more > 0; --more) {
+        mix(chance_.share());
         loan->position_().push_back(state_);
       }
       loan.publish();
@@ -68,7 +66,7 @@ class AnyNode final : public Component {
   }
 
   Parameters parameters_;
-  std::mt19937_64 chance_;
+  Chance chance_;
   std::array<Input<msg::JointState>, kPorts.size()> inputs_;
   std::array<Output<msg::JointState>, kPorts.size()> outputs_;
   double state_ = 0.5;

@@ -15,7 +15,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +27,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/chance.hpp"
 #include "test_any_operator_parameters.hpp"
 #include "test_any_operator_ports.hpp"
 
@@ -97,11 +97,8 @@ class AnyOperator final : public Component {
     std::optional<msg::OperatorCommand> again = {};  // as it was told before
   };
 
-  static double share(std::mt19937_64& chance) {
-    return static_cast<double>(chance() >> 11) * 0x1p-53;
-  }
-  double share() { return share(chance_); }
-  bool happens(double probability) { return share() < probability; }
+  double share() { return chance_.share(); }
+  bool happens(double probability) { return chance_.happens(probability); }
   std::uint64_t below(std::uint64_t count) {
     return static_cast<std::uint64_t>(share() * static_cast<double>(count));
   }
@@ -193,7 +190,7 @@ class AnyOperator final : public Component {
     if (mishap_) {
       if (now >= mishap_over_) end_mishap(now);
     } else if (asked && mishaps_ < parameters_.mishaps && !is_calm() &&
-               share(misfortune_) < to_seconds(kPeriod) / kEvery_s) {
+               misfortune_.share() < to_seconds(kPeriod) / kEvery_s) {
       begin_mishap(now);
     }
     if (!mishap_ && (stopped_ || rearms_) && now >= rearm_at_) {
@@ -206,8 +203,8 @@ class AnyOperator final : public Component {
 
   void begin_mishap(Time now) {
     ++mishaps_;
-    mishap_ = Mishap(static_cast<int>(3 * share(misfortune_)));
-    mishap_over_ = now + seconds(2 * share(misfortune_));
+    mishap_ = Mishap(static_cast<int>(3 * misfortune_.share()));
+    mishap_over_ = now + seconds(2 * misfortune_.share());
     write("mishap {:.3f} {}", time(now), kMishaps[static_cast<int>(*mishap_)]);
     if (mishap_ == Mishap::stop) tell(ports_.stop, true);
     if (mishap_ == Mishap::hold) tell(ports_.hold_to_run, false);
@@ -218,7 +215,7 @@ class AnyOperator final : public Component {
     if (mishap_ == Mishap::power) tell(ports_.power, true);
     mishap_.reset();
     rearms_ = true;  // also where nothing was moved yet, and motion calls nothing stopped
-    rearm_at_ = now + seconds(3 * share(misfortune_));
+    rearm_at_ = now + seconds(3 * misfortune_.share());
     write("over {:.3f}", time(now));
   }
 
@@ -294,7 +291,7 @@ class AnyOperator final : public Component {
 
   Parameters parameters_;
   Ports ports_;
-  std::mt19937_64 chance_, misfortune_;
+  Chance chance_, misfortune_;
   std::ofstream chronicle_;
   std::optional<Time> start_;
   bool waits_for_a_question_ = false;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <limits>
-#include <random>
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry_msgs.hpp"
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/chance.hpp"
 #include "test_second_thoughts_parameters.hpp"
 #include "test_second_thoughts_ports.hpp"
 
@@ -28,14 +28,14 @@ class SecondThoughts final : public Component {
       return tell(*planned);
     }
     constexpr double kEvery_s = 3;
-    if (share() < to_seconds(kPeriod) / kEvery_s) tell(share() < 0.3 ? *planned : other(*planned));
+    if (chance_.happens(to_seconds(kPeriod) / kEvery_s))
+      tell(chance_.happens(0.3) ? *planned : other(*planned));
   }
 
  private:
   static constexpr Duration kPeriod = seconds(0.02);
 
-  double share() { return static_cast<double>(chance_() >> 11) * 0x1p-53; }
-  double about(double most) { return most * (2 * share() - 1); }
+  double about(double most) { return most * (2 * chance_.share() - 1); }
 
   void move(msg::Point& point, double most_m) {
     point.x_(point.x_() + about(most_m));
@@ -44,7 +44,7 @@ class SecondThoughts final : public Component {
   }
 
   msg::NeedlePlan other(msg::NeedlePlan plan) {
-    switch (static_cast<int>(8 * share())) {
+    switch (static_cast<int>(8 * chance_.share())) {
       case 0: move(plan.target_(), 0.005); break;
       case 1: move(plan.entry_(), 0.005); break;
       case 2: plan.target_().x_(std::numeric_limits<double>::quiet_NaN()); break;
@@ -65,7 +65,7 @@ class SecondThoughts final : public Component {
     loan.publish();
   }
 
-  std::mt19937_64 chance_;
+  Chance chance_;
   bool passed_on_ = false;
   Ports ports_;
 };

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
 #include <span>
 #include <string_view>
 
+#include "armature/values/chance.hpp"
 #include "bench/perception/cases.hpp"
 
 namespace armature::bench {
@@ -13,23 +13,17 @@ namespace armature::bench {
 /// Glasses or a beard of a drawn face, which lead landmark finders astray.
 enum class FaceWears { nothing, glasses, beard };
 
-/// Numbers that are the same in every standard library.
-class Draw {
+/// What is drawn of a case.
+class Draw : public Chance {
  public:
-  explicit Draw(std::uint64_t seed) : random_{seed} {}
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
-  }
+  using Chance::Chance;
   /// The same, or its opposite.
   double either_side(double low, double high) {
     const double value = between(low, high);
-    return random_() >> 63 ? value : -value;
+    return bits() >> 63 ? value : -value;
   }
   /// The seed of one of six drawn faces that wear this and nothing else.
   std::uint64_t face(FaceWears what);
-
- private:
-  std::mt19937_64 random_;
 };
 
 /// A case as it is drawn: the face looks along the cameras' axes but for its angles, and its mouth

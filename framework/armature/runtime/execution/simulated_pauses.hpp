@@ -2,9 +2,9 @@
 #pragma once
 
 #include <cstdint>
-#include <random>
 
 #include "armature/runtime/deployment_file/executor_spec.hpp"
+#include "armature/values/chance.hpp"
 #include "armature/values/time.hpp"
 
 namespace armature {
@@ -29,14 +29,10 @@ class SimulatedPauses {
   }
 
  private:
-  /// Not std::uniform_int_distribution: it draws other numbers with another standard library.
-  Duration share() {
-    const double part = static_cast<double>(chance_() >> 11) * 0x1p-53;
-    return Duration{1 + static_cast<Duration::rep>(part * static_cast<double>(longest_.count()))};
-  }
+  Duration share() { return Duration{1} + seconds(to_seconds(longest_) * chance_.share()); }
 
   Duration longest_;
-  std::mt19937_64 chance_;
+  Chance chance_;
   Time begin_, end_;
 };
 

@@ -185,14 +185,15 @@ TEST_P(AnyLink, MayHaveThreadsThatAreHeldUp) {
   const int first = environment_number("ARMATURE_FIRST_LINK", 1),
             count = environment_number("ARMATURE_LINKS", 3);
   for (int seed = first; seed < first + count; ++seed) {
-    const double control_s = 0.0002 * std::pow(200, (seed % 11) / 10.0),
-                 main_s = 0.0002 * std::pow(1000, (seed % 13) / 12.0);
+    const double control_s = 0.0002 * std::pow(200, (4 * seed % 11) / 10.0),
+                 main_s = 0.0002 * std::pow(1000, (5 * seed % 13) / 12.0);
     auto settings = held_up_threads(seed, control_s, main_s);
     settings.push_back("components.link.params.calm_after_s=0");
     const LinkedRun run = run_with(seed, settings);
     SCOPED_TRACE(again(seed, run));
     expect_arm(run, control_s);
     EXPECT_EQ(run.run.status(), "ok") << run.run.report;
+    EXPECT_EQ(run.run.text().find("asks joint"), std::string::npos) << "of a good stream";
   }
 }
 

@@ -37,12 +37,7 @@ ComponentSetup::ComponentSetup(const ComponentConfig& config, const DeploymentCo
       find_topic_{std::move(find_topic)},
       network_{std::move(network)} {}
 
-std::uint64_t ComponentSetup::seed() const {
-  // FNV-1a: the same on every machine.
-  std::uint64_t hash = 14695981039346656037ULL ^ deployment_.seed;
-  for (const unsigned char c : config_.name) hash = (hash ^ c) * 1099511628211ULL;
-  return hash;
-}
+std::uint64_t ComponentSetup::seed() const { return deployment_.seed_of(config_.name); }
 
 const config::Node& ComponentSetup::document(std::string_view section) {
   const auto bound = config_.documents.find(std::string{section});

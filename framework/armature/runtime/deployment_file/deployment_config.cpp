@@ -106,7 +106,8 @@ std::map<std::string, Node> read_documents(std::string_view name,
   return documents;
 }
 
-std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, Problems& problems) {
+std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section,
+                                         const DeploymentConfig& deployment, Problems& problems) {
   std::vector<ExecutorSpec> executors;
   for (const auto& [name, name_origin, value] : section) {
     MapReader map{value, fmt::format("executor '{}'", name), executor_keys(), problems};
@@ -116,7 +117,7 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section, P
     if (const auto cpu = map.optional_integer("cpu")) spec.cpu = static_cast<int>(*cpu);
     spec.lock_memory = map.flag("lock_memory");
     spec.sim_pause = seconds(map.number("sim_pause_s"));
-    spec.sim_seed = static_cast<std::uint64_t>(map.integer("sim_seed"));
+    spec.seed = deployment.seed_of(name);
     map.finish();
     executors.push_back(std::move(spec));
   }
@@ -289,6 +290,13 @@ void check_hosts(const DeploymentConfig& deployment, Problems& problems) {
 
 }  // namespace
 
+std::uint64_t DeploymentConfig::seed_of(std::string_view part) const {
+  // FNV-1a: the same on every machine.
+  std::uint64_t hash = 14695981039346656037ULL ^ seed;
+  for (const unsigned char c : part) hash = (hash ^ c) * 1099511628211ULL;
+  return hash;
+}
+
 DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins,
                                  Problems& problems, const RecordedDocuments* recorded) {
   DeploymentConfig deployment;
@@ -309,8 +317,8 @@ DeploymentConfig read_deployment(const Node& root, const PluginRegistry& plugins
   if (const Node* run = map.node("run")) read_run(*run, deployment, problems);
   const Node* record = map.node("record");
   if (record) deployment.record = read_record(*record, problems);
-  deployment.executors =
-      read_executors(entries_of(map.node("executors"), "executors", problems), problems);
+  deployment.executors = read_executors(entries_of(map.node("executors"), "executors", problems),
+                                        deployment, problems);
   for (const auto& [section, word] : kDocumentSections) {
     deployment.documents[std::string{section}] = read_documents(
         section, entries_of(map.node(section), section, problems), recorded, problems);

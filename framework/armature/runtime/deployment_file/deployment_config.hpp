@@ -124,6 +124,8 @@ struct DeploymentConfig {
 
   std::vector<std::string> processes() const;  // "main" first
   std::vector<std::string> hosts() const;      // "main" first
+  /// What a part of it draws with: a number that differs between parts and follows `seed`.
+  std::uint64_t seed_of(std::string_view part) const;
   /// The components with an output that is `measured`, in their order.
   std::vector<std::string> measuring() const;
   /// The place of `component` among them.

@@ -162,12 +162,7 @@ const std::vector<KeySpec>& executor_keys() {
        .fallback = default_value("0"),
        .min = 0,
        .max = kLongestWait_s,
-       .because = "0 is never"},
-      {.name = "sim_seed",
-       .type = Type::integer,
-       .doc = "Draws when, and for how long.",
-       .fallback = default_value("1"),
-       .min = 0}};
+       .because = "0 is never"}};
   return kKeys;
 }
 

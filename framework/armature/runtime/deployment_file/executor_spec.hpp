@@ -17,7 +17,7 @@ struct ExecutorSpec {
   std::optional<int> cpu;          // pinned to this one
   bool lock_memory = false;        // the process keeps all its memory in RAM
   Duration sim_pause{0};           // the longest of its thread's on the simulated clock; 0: none
-  std::uint64_t sim_seed = 1;      // draws them
+  std::uint64_t seed = 1;          // draws them
 };
 
 }  // namespace armature

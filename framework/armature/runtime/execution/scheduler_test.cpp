@@ -43,9 +43,8 @@ TEST(LockstepScheduler, WhatAPauseOfItsThreadHoldsUpComesLateButNeverInABurst) {
     std::vector<std::int64_t> log;
     const auto record = [&](Time now) { log.push_back(now.ns); };
     const auto first = make_runner("first", 0, record), second = make_runner("second", 1, record);
-    scheduler.assign(
-        {.name = "a", .period = Duration{10}, .sim_pause = Duration{25}, .sim_seed = seed},
-        {first.get(), second.get()});
+    scheduler.assign({.name = "a", .period = Duration{10}, .sim_pause = Duration{25}, .seed = seed},
+                     {first.get(), second.get()});
     scheduler.run([&] { return clock.now().ns >= 10'000 && log.size() % 2 == 0; });
     EXPECT_NEAR(static_cast<double>(first->activations() + first->overruns()), 1001, 3);
     EXPECT_GT(first->overruns(), 50U) << "seed " << seed;

@@ -15,7 +15,7 @@ namespace armature {
 class SimulatedPauses {
  public:
   explicit SimulatedPauses(const ExecutorSpec& executor)
-      : longest_{executor.sim_pause}, chance_{executor.sim_seed} {}
+      : longest_{executor.sim_pause}, chance_{executor.seed} {}
 
   /// When the thread does what is due at `time`: then, or at the end of the pause that it is in.
   /// The times that it is asked for do not go back.

@@ -51,7 +51,9 @@ TEST(LockstepScheduler, WhatAPauseOfItsThreadHoldsUpComesLateButNeverInABurst) {
     std::size_t late = 0;
     for (std::size_t i = 0; i < log.size(); i += 2) {
       EXPECT_EQ(log[i], log[i + 1]) << "one thread is held up for both, seed " << seed;
-      if (i > 0) EXPECT_NE(log[i] / 10, log[i - 1] / 10) << "seed " << seed;
+      if (i > 0) {
+        EXPECT_NE(log[i] / 10, log[i - 1] / 10) << "seed " << seed;
+      }
       if (log[i] % 10 != 0) ++late;
     }
     EXPECT_GT(late, 50U) << "seed " << seed;

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <string>
 
 #include "armature/kinds/geometry_params.hpp"
 
@@ -31,6 +32,25 @@ std::vector<Isometry3d> sites_of(const Parameters& parameters, const Params& par
   return sites;
 }
 
+/// What is wrong with an implant; empty: nothing. Where the bore ends above its bottom is judged by
+/// the task, which knows how deep it is.
+std::string defect_of(const PlannedImplant& implant) {
+  constexpr double kMaxLength_m = 0.1, kMinPitch_m = 1e-4;
+  if (!(implant.above_bottom_m <= kMaxLength_m)) {
+    return fmt::format("its end above the bottom is {:g} mm, at most {:g} are wanted",
+                       1e3 * implant.above_bottom_m, 1e3 * kMaxLength_m);
+  }
+  if (!(implant.length_m > 0 && implant.length_m <= kMaxLength_m)) {
+    return fmt::format("its length is {:g} mm, more than 0 and at most {:g} are wanted",
+                       1e3 * implant.length_m, 1e3 * kMaxLength_m);
+  }
+  if (!(implant.pitch_m >= kMinPitch_m && implant.pitch_m <= implant.length_m)) {
+    return fmt::format("its pitch is {:g} mm, from {:g} to its length are wanted",
+                       1e3 * implant.pitch_m, 1e3 * kMinPitch_m);
+  }
+  return "";
+}
+
 std::vector<PlannedImplant> implants_of(const Parameters& parameters, const Params& params,
                                         std::size_t sites) {
   if (parameters.implants.empty()) return {};
@@ -39,6 +59,11 @@ std::vector<PlannedImplant> implants_of(const Parameters& parameters, const Para
                                            "above the bottom, length and pitch of each")) {
     implants.push_back(
         {.above_bottom_m = implant.x(), .length_m = implant.y(), .pitch_m = implant.z()});
+    const std::string wrong = defect_of(implants.back());
+    if (!wrong.empty()) {
+      params.refuse({"implants_mm"},
+                    fmt::format("'implants_mm': of implant {} {}", implants.size(), wrong));
+    }
   }
   if (implants.size() != sites) {
     params.refuse({"implants_mm", "sites_mm"},

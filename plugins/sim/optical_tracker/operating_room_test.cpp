@@ -3,7 +3,7 @@
 // come out, 3. the drill in the hand.
 #include "operating_room.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <cmath>
 
@@ -15,6 +15,8 @@ namespace {
 
 using Eigen::Isometry3d;
 using Eigen::Vector3d;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
 
 Isometry3d file_tool() {
   return Eigen::Translation3d{0, 0.02, 0.15} * Eigen::AngleAxisd{0.5, Vector3d::UnitY()};
@@ -59,6 +61,29 @@ TEST(OperatingRoom, ListsThatDoNotComeOutAreRefused) {
   EXPECT_EQ(refusal("markers_mm: [0, 0, 0, 1, 1, 1]"),
             "given:1:14: 'markers_mm' has 6 numbers; three for each of at least three markers are "
             "needed");
+}
+
+TEST(OperatingRoom, AnImplantThatCannotBeIsRefusedWithWhatIsWanted) {
+  const auto refusal = [](const std::string& second) -> std::string {
+    return test::refusal_of([&] {
+      room(
+          "sites_mm: [0, 0, 5, 10, 0, 5], sites_rpy_deg: [180, 0, 0, 180, 0, 0], "
+          "implants_mm: [0.5, 11, 1.2, " +
+          second + "]");
+    });
+  };
+  EXPECT_EQ(refusal("0, 100, 0.1"), "");
+  EXPECT_THAT(refusal("0.5, 0, 1.2"),
+              EndsWith(": 'implants_mm': of implant 2 its length is 0 mm, more than 0 and at most "
+                       "100 are wanted"));
+  EXPECT_THAT(refusal("0.5, 11000, 1.2"), HasSubstr("its length is 11000 mm"));
+  EXPECT_THAT(refusal("0.5, 11, 0"),
+              EndsWith(": 'implants_mm': of implant 2 its pitch is 0 mm, from 0.1 to its length "
+                       "are wanted"));
+  EXPECT_THAT(refusal("0.5, 11, 12"), HasSubstr("its pitch is 12 mm"));
+  EXPECT_THAT(refusal("500, 11, 1.2"),
+              HasSubstr("its end above the bottom is 500 mm, at most 100 are wanted"));
+  EXPECT_THAT(refusal("0.5, 11, -1.2"), HasSubstr("'implants_mm' item 6 is -1.2"));
 }
 
 TEST(OperatingRoom, TheDrillTurnsAboutItsTipWithinTheConeAndAboutManyAxes) {

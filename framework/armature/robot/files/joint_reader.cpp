@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <set>
 
@@ -65,9 +66,11 @@ const Node* read_coupling(const Node& node, Joint& joint, Problems& problems) {
   const auto keys = coupling_keys(joint.type);
   MapReader map{node, "coupled", keys, problems};
   const Node* leader = map.node("to");
-  const double ratio = map.number("ratio");
-  if (ratio == 0) {
-    map.problem("ratio", "'ratio' must not be 0; a joint that does not move is a fixed angle");
+  const double ratio = map.optional_number("ratio").value_or(1);
+  if (std::abs(ratio) < kMinRatio) {
+    map.problem("ratio", fmt::format("'ratio' is {:g}, and must not be nearer to 0 than {:g}; a "
+                                     "joint that does not move is a fixed angle",
+                                     ratio, kMinRatio));
   }
   const double offset = map.number(joint.type == Joint::Type::revolute ? "offset_deg" : "offset_m");
   joint.coupling = {.to = 0, .ratio = ratio, .offset = offset};

@@ -139,6 +139,33 @@ TEST(RobotFile, StatesHowFarACoupledJointMayBeMeasuredFromItsLeader) {
       ElementsAre(HasSubstr("'coupled_within_deg' is for a coupled joint, which 'b' is not")));
 }
 
+TEST(RobotFile, RefusesARatioThatNoGearHas) {
+  const auto said = [](const std::string& ratio) {
+    return problems_in(with("{name: b, coupled: {to: a, ratio: " + ratio + "}}", kGoodFrames));
+  };
+  for (const char* huge : {"1e308", "-1e308"}) {
+    EXPECT_THAT(said(huge), ElementsAre(HasSubstr("must be from -1000000 to 1000000: no gear is as "
+                                                  "steep; is it told in another unit?")))
+        << huge;
+  }
+  for (const char* tiny : {"0", "1e-300", "-1e-300"}) {
+    EXPECT_THAT(said(tiny), ElementsAre(HasSubstr("must not be nearer to 0 than 1e-06; a joint "
+                                                  "that does not move is a fixed angle")))
+        << tiny;
+  }
+  EXPECT_THAT(said("-62832"), ElementsAre()) << "a screw of 0.1 mm a turn";
+}
+
+TEST(RobotFile, RefusesALimitWithWhichNothingMoves) {
+  for (const char* rates : {"velocity_rad_s: 1e-300, acceleration_rad_s2: 2",
+                            "velocity_rad_s: 1, acceleration_rad_s2: 1e-300"}) {
+    EXPECT_THAT(problems_in(with(std::string{"{name: b, limits_deg: [-90, 90], "} + rates + "}",
+                                 kGoodFrames)),
+                ElementsAre(HasSubstr("is 1e-300, must be at least 1e-06")))
+        << rates;
+  }
+}
+
 TEST(RobotFile, AShaftIsALineWithALength) {
   const std::string good = with(kGoodJoint, kGoodFrames);
   EXPECT_THAT(problems_in(good + "shaft: {axis: w, length_m: 0}\n"),
@@ -244,12 +271,13 @@ TEST(RobotFile, ReportsEverythingThatIsWrongAtOnceWithItsPlace) {
           "arm.yaml:1:17: 'armature_robot' is 2, must be 1: the format that this version reads",
           "arm.yaml:3:13: 'convention' cannot be 'standart'; did you mean 'standard'?",
           "arm.yaml:5:27: 'limits_deg' is [lower, upper], and 90 is not below -90",
-          "arm.yaml:5:54: 'velocity_rad_s' is 0, must be more than 0",
+          "arm.yaml:5:54: 'velocity_rad_s' is 0, must be at least 1e-06",
           "arm.yaml:6:5: missing key 'limits_m' in joint 'b'",
           "arm.yaml:6:32: unknown key 'limits_deg' in joint 'b'; did you mean 'limits_m' or "
           "'limits_mm'?",
           "arm.yaml:7:29: there is no joint 'd'; known: a, b, c, e, a",
-          "arm.yaml:7:39: 'ratio' must not be 0; a joint that does not move is a fixed angle",
+          "arm.yaml:7:39: 'ratio' is 0, and must not be nearer to 0 than 1e-06; a joint that does "
+          "not move is a fixed angle",
           "arm.yaml:8:29: joint 'e' cannot follow 'c', which is coupled itself; name a joint that "
           "moves by itself",
           "arm.yaml:9:12: there is a joint 'a' already",

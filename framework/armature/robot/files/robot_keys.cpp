@@ -67,7 +67,8 @@ std::vector<KeySpec> drive_keys(Joint::Type type) {
 
 std::vector<KeySpec> limit_keys(Joint::Type type, bool optional) {
   const auto rate = [&](std::string name) {
-    return KeySpec{.name = std::move(name), .doc = "At most.", .optional = optional, .above = 0};
+    return KeySpec{
+        .name = std::move(name), .doc = "At most.", .min = kMinRate, .optional = optional};
   };
   KeySpec limits{.name = "limits_deg",
                  .type = Type::numbers,
@@ -165,7 +166,10 @@ std::vector<KeySpec> coupling_keys(Joint::Type type) {
   return {{.name = "to", .type = Type::text, .doc = "The joint that it follows."},
           {.name = "ratio",
            .doc = "How far it moves when the other one moves by 1.",
-           .fallback = default_value("1")},
+           .fallback = default_value("1"),
+           .min = -kMaxRatio,
+           .max = kMaxRatio,
+           .because = "no gear is as steep; is it told in another unit?"},
           offset};
 }
 

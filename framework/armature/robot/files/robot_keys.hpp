@@ -10,6 +10,12 @@ namespace armature ARMATURE_EXPORT {
 
 // The keys of a robot file, map by map: what reading asks for, and what its JSON Schema is made of.
 
+/// [rad/s] or [m/s], and of accelerations: what is slower does not move.
+inline constexpr double kMinRate = 1e-6;
+/// How far a coupled joint moves with its leader, to either side. A screw of 0.1 mm a turn has
+/// 62832 rad/m.
+inline constexpr double kMinRatio = 1e-6, kMaxRatio = 1e6;
+
 /// Of a file that has its joints in rows.
 const std::vector<config::KeySpec>& robot_keys();
 /// Of a file that has them from a URDF file.

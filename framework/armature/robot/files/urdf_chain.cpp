@@ -9,6 +9,8 @@
 #include <cmath>
 
 #include "armature/robot/files/joint_reader.hpp"
+#include "armature/robot/files/robot_keys.hpp"
+#include "armature/values/angles.hpp"
 
 namespace armature {
 namespace {
@@ -163,6 +165,24 @@ class ChainReader {
     limited.max_acceleration = usual_acceleration(velocity);
   }
 
+  void check_mimic(const urdf::Joint& joint) {
+    const double multiplier = joint.mimic->multiplier, offset = joint.mimic->offset;
+    if (!(std::abs(multiplier) >= kMinRatio))
+      problem(joint, fmt::format("mimics with a multiplier of {:g}, nearer to 0 than {:g}; a joint "
+                                 "that does not move is fixed",
+                                 multiplier, kMinRatio));
+    if (std::abs(multiplier) > kMaxRatio)
+      problem(joint, fmt::format("mimics with a multiplier of {:g}, more than {:g}; is it told in "
+                                 "another unit?",
+                                 multiplier, kMaxRatio));
+    const bool slides = joint.type == urdf::Joint::PRISMATIC;
+    if (!(std::abs(offset) <= (slides ? kFarthest_m : kWidest_deg * kRadPerDegree)))
+      problem(joint,
+              fmt::format("mimics with an offset of {:g} {}; is it told in another unit?", offset,
+                          slides ? fmt::format("m, farther than {:g} m", kFarthest_m)
+                                 : fmt::format("rad, more than {:g} degrees", kWidest_deg)));
+  }
+
   void couple(const urdf::Joint& joint) {
     const auto name = [&](const Joint& one) { return one.name; };
     const auto follower = std::ranges::find(chain_.joints, joint.name, name);
@@ -177,8 +197,7 @@ class ChainReader {
       return problem(joint, fmt::format("cannot mimic '{}', which mimics another joint itself; "
                                         "name the one that moves by itself",
                                         to));
-    if (!(joint.mimic->multiplier != 0))
-      return problem(joint, "mimics with a multiplier of 0; a joint that does not move is fixed");
+    check_mimic(joint);
     follower->coupling = {.to = static_cast<int>(leader - chain_.joints.begin()),
                           .ratio = joint.mimic->multiplier,
                           .offset = joint.mimic->offset};

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "armature/robot/files/robot_keys.hpp"
 #include "armature/robot/files/urdf_chain.hpp"
 #include "armature/robot/model/denavit_hartenberg.hpp"
 #include "armature/values/angles.hpp"
@@ -121,8 +122,9 @@ void check_urdf_limits(const UrdfArm& arm, const std::vector<Joint>& joints,
       note(fmt::format("has limits of {:g} to {:g} {}", own.lower, own.upper, bound),
            slides ? "limits_m: [0, 1]" : "limits_deg: [-90, 90]");
     }
-    if (joint.max_velocity == own.max_velocity && own.max_velocity < 0) {
-      note(fmt::format("has a velocity limit of {:g}, which is below 0", own.max_velocity),
+    if (joint.max_velocity == own.max_velocity && own.max_velocity < kMinRate) {
+      note(fmt::format("has a velocity limit of {:g}, which is below {:g}", own.max_velocity,
+                       kMinRate),
            slides ? "velocity_m_s: 1" : "velocity_rad_s: 1");
     }
   }

@@ -120,8 +120,11 @@ TEST_F(UrdfFile, SaysWhichJointHasNoUsableLimits) {
                           "1]}]"));
   EXPECT_THAT(
       problems_of(arm("revolute", "<limit lower='-1' upper='1' effort='1' velocity='-2'/>")),
-      ElementsAre("arm.urdf:3:1: joint 'j2' has a velocity limit of -2, which is below 0; correct "
-                  "it there, or in a robot file: joints: [{name: j2, velocity_rad_s: 1}]"));
+      ElementsAre("arm.urdf:3:1: joint 'j2' has a velocity limit of -2, which is below 1e-06; "
+                  "correct it there, or in a robot file: joints: [{name: j2, velocity_rad_s: 1}]"));
+  EXPECT_THAT(
+      problems_of(arm("revolute", "<limit lower='-1' upper='1' effort='1' velocity='1e-300'/>")),
+      ElementsAre(HasSubstr("joint 'j2' has a velocity limit of 1e-300, which is below 1e-06; ")));
 }
 
 TEST_F(UrdfFile, IsJudgedWithTheLimitsThatARobotFileStatesInPlaceOfItsOwn) {
@@ -238,8 +241,17 @@ TEST_F(UrdfFile, SaysWhatAMimickingJointCannotFollow) {
               ElementsAre("arm.urdf:3:1: joint 'j2' cannot mimic 'j2', which mimics another joint "
                           "itself; name the one that moves by itself"));
   EXPECT_THAT(problems_of(arm("revolute", mimic("joint='j1' multiplier='0'"))),
-              ElementsAre("arm.urdf:3:1: joint 'j2' mimics with a multiplier of 0; a joint that "
-                          "does not move is fixed"));
+              ElementsAre("arm.urdf:3:1: joint 'j2' mimics with a multiplier of 0, nearer to 0 "
+                          "than 1e-06; a joint that does not move is fixed"));
+  EXPECT_THAT(problems_of(arm("revolute", mimic("joint='j1' multiplier='-1e308'"))),
+              ElementsAre("arm.urdf:3:1: joint 'j2' mimics with a multiplier of -1e+308, more than "
+                          "1e+06; is it told in another unit?"));
+  EXPECT_THAT(problems_of(arm("revolute", mimic("joint='j1' offset='1e308'"))),
+              ElementsAre("arm.urdf:3:1: joint 'j2' mimics with an offset of 1e+308 rad, more than "
+                          "1e+06 degrees; is it told in another unit?"));
+  EXPECT_THAT(problems_of(arm("prismatic", mimic("joint='j1' offset='400'"))),
+              ElementsAre("arm.urdf:3:1: joint 'j2' mimics with an offset of 400 m, farther than "
+                          "100 m; is it told in another unit?"));
 }
 
 TEST_F(UrdfFile, SaysWhichMimickingJointCanNeverKeepItsLimits) {

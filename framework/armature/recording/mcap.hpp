@@ -21,6 +21,8 @@ struct McapSchema {
   std::string name;      // "sensor_msgs/msg/JointState"
   std::string encoding;  // "ros2msg"
   std::string data;
+
+  bool operator==(const McapSchema&) const = default;
 };
 
 /// Messages of one topic.
@@ -30,6 +32,8 @@ struct McapChannel {
   std::string topic;             // "/dental_lamp/arm/measured_js"
   std::string message_encoding;  // "cdr"
   std::map<std::string, std::string> metadata;
+
+  bool operator==(const McapChannel&) const = default;
 };
 
 /// A file inside the file.

@@ -346,6 +346,29 @@ TEST(Summary, ThatNamesOneMetadataAgainAndAgainIsNotBelieved) {
   EXPECT_FALSE(read_summary(file.path())) << "it would take a hundred times the memory";
 }
 
+TEST(Summary, ThatTellsAChannelOrASchemaTwiceOtherwiseIsNotBelieved) {
+  const RecordingFile file{"summary"};
+  {
+    McapWriter writer{file.path(), {.chain = false}};
+    write_all_but_the_end(writer, 20);
+    writer.close();
+  }
+  const std::string whole = file.bytes();
+  const auto is_believed = [&](mcap::Op told_again, std::string_view word, const char* instead) {
+    file.replace(with_summary(whole, [&](mcap::Op op, const std::string& record) {
+      if (op != told_again) return record;
+      std::string again = record;
+      again.replace(again.find(word), word.size(), instead);
+      return record + again;
+    }));
+    return read_summary(file.path()).has_value();
+  };
+  EXPECT_TRUE(is_believed(mcap::Op::channel, "cdr", "cdr")) << "twice alike";
+  EXPECT_FALSE(is_believed(mcap::Op::channel, "cdr", "xml"));
+  EXPECT_TRUE(is_believed(mcap::Op::schema, "string data", "string data")) << "twice alike";
+  EXPECT_FALSE(is_believed(mcap::Op::schema, "string data", "int8[] data"));
+}
+
 TEST(Summary, IsNotBelievedWhenAByteOfItIsChangedOrMissing) {
   const RecordingFile file{"summary"};
   McapWriter writer{file.path(), {.chunk_bytes = 2048}};

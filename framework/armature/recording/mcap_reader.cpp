@@ -2,16 +2,18 @@
 #include "armature/recording/mcap_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <zlib.h>
 #include <zstd.h>
 
 #include <new>
 #include <stdexcept>
-#include <tuple>
+#include <string_view>
 #include <utility>
 
 #include "armature/recording/mapped_file.hpp"
 #include "armature/recording/mcap_cursor.hpp"
+#include "armature/recording/mcap_summary.hpp"
 
 namespace armature {
 namespace {
@@ -25,13 +27,43 @@ std::uint32_t checksum_of(std::span<const std::byte> bytes) {
       crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
 }
 
-bool is_same(const McapSchema& a, const McapSchema& b) {
-  return std::tie(a.name, a.encoding, a.data) == std::tie(b.name, b.encoding, b.data);
+const std::string& name_of(const McapSchema& schema) { return schema.name; }
+const std::string& name_of(const McapChannel& channel) { return channel.topic; }
+
+/// What differs beside the name.
+std::vector<std::string_view> differences(const McapSchema& a, const McapSchema& b) {
+  std::vector<std::string_view> parts;
+  if (a.encoding != b.encoding) parts.emplace_back("another encoding");
+  if (a.data != b.data) parts.emplace_back("another text");
+  return parts;
 }
 
-bool is_same(const McapChannel& a, const McapChannel& b) {
-  return std::tie(a.schema_id, a.topic, a.message_encoding, a.metadata) ==
-         std::tie(b.schema_id, b.topic, b.message_encoding, b.metadata);
+std::vector<std::string_view> differences(const McapChannel& a, const McapChannel& b) {
+  std::vector<std::string_view> parts;
+  if (a.schema_id != b.schema_id) parts.emplace_back("another schema");
+  if (a.message_encoding != b.message_encoding) parts.emplace_back("another encoding");
+  if (a.metadata != b.metadata) parts.emplace_back("other metadata");
+  return parts;
+}
+
+/// Keeps what is told of an id first. What is wrong when it is told otherwise again, `at` that
+/// byte; empty: it is not.
+template <class Told>
+std::string keep_first(std::map<std::uint16_t, Told>& known, const Told& told,
+                       std::string_view what, std::uint64_t at) {
+  const auto [place, is_new] = known.try_emplace(told.id, told);
+  const Told& first = place->second;
+  if (is_new || first == told) return "";
+  if (name_of(first) != name_of(told)) {
+    return fmt::format(
+        "{} {} is told twice: at byte {} it is '{}', and before it was '{}', which "
+        "counts",
+        what, told.id, at, name_of(told), name_of(first));
+  }
+  return fmt::format(
+      "{} {}, '{}', is told twice: at byte {} it has {} than before, and "
+      "what was before counts",
+      what, told.id, name_of(told), at, fmt::join(differences(first, told), " and "));
 }
 
 }  // namespace
@@ -78,22 +110,21 @@ bool McapReader::read_message(McapMessage& message) {
   if (next.op == Op::channel) add_channel(record, chunk_at_);
   if (next.op != Op::message) return false;
   const auto id = record.number<std::uint16_t>();
-  const auto channel = channels_.find(id);
+  message.channel = find_channel(id);
   message.sequence = record.number<std::uint32_t>();
   message.log_time = record.time();
   message.publish_time = record.time();
   message.data = record.left();
   ++messages_;
   ++messages_of_chunk_;
-  if (!record.ok() || channel == channels_.end()) {
+  if (!record.ok() || !message.channel) {
     note(fmt::format(
         "message {} of the chunk at byte {} {}", messages_of_chunk_, chunk_at_,
         record.ok() ? fmt::format("is of channel {}, which is not there", id) : "is too short"));
     return false;
   }
-  message.channel = &channel->second;
   check_times(message);
-  check_schema(channel->second);
+  check_schema(*message.channel);
   return true;
 }
 
@@ -259,27 +290,38 @@ void McapReader::read_metadata(McapCursor record, std::uint64_t at) {
 }
 
 void McapReader::add_schema(McapCursor record, std::uint64_t at) {
-  McapSchema schema = read_schema(record);
+  const McapSchema schema = read_schema(record);
   if (!record.ok()) return note(fmt::format("a schema at byte {} is broken", at));
-  const auto [place, is_new] = schemas_.try_emplace(schema.id, schema);
-  if (is_new || is_same(place->second, schema)) return;
-  note(
-      fmt::format("schema {} is told twice: at byte {} it is '{}', and before it was '{}', which "
-                  "counts",
-                  schema.id, at, schema.name, place->second.name));
+  std::string twice = keep_first(schemas_, schema, "schema", at);
+  if (!twice.empty()) note(std::move(twice));
 }
 
 void McapReader::add_channel(McapCursor record, std::uint64_t at) {
-  McapChannel channel = read_channel(record);
+  const McapChannel channel = read_channel(record);
   if (!record.ok() || !record.left().empty()) {
     return note(fmt::format("a channel at byte {} is broken, or has a map of wrong length", at));
   }
-  const auto [place, is_new] = channels_.try_emplace(channel.id, channel);
-  if (is_new || is_same(place->second, channel)) return;
-  note(
-      fmt::format("channel {} is told twice: at byte {} it is '{}', and before it was '{}', which "
-                  "counts",
-                  channel.id, at, channel.topic, place->second.topic));
+  std::string twice = keep_first(channels_, channel, "channel", at);
+  if (!twice.empty()) note(std::move(twice));
+}
+
+/// One that was not met where it belongs, or its schema, stood in what was passed over. A summary
+/// whose checksum is right repeats them.
+const McapChannel* McapReader::find_channel(std::uint16_t id) {
+  const auto is_known = [&] {
+    const auto channel = channels_.find(id);
+    if (channel == channels_.end()) return false;
+    return channel->second.schema_id == 0 || schemas_.contains(channel->second.schema_id);
+  };
+  if (!is_known() && !std::exchange(has_asked_summary_, true)) {
+    if (auto summary = read_summary(file_)) {
+      schemas_.merge(summary->schemas);
+      channels_.merge(summary->channels);
+    }
+    if (is_known()) note("what is not told of its channels where they begin is in its summary");
+  }
+  const auto channel = channels_.find(id);
+  return channel == channels_.end() ? nullptr : &channel->second;
 }
 
 void McapReader::check_end() {

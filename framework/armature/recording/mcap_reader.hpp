@@ -77,6 +77,7 @@ class McapReader {
   void read_metadata(McapCursor record, std::uint64_t at);
   void add_schema(McapCursor record, std::uint64_t at);
   void add_channel(McapCursor record, std::uint64_t at);
+  const McapChannel* find_channel(std::uint16_t id);
   /// The summary, and what stands behind it, from `data_end` on.
   void check_end();
   void check_statistics(McapCursor record);
@@ -97,6 +98,7 @@ class McapReader {
   std::map<std::uint16_t, McapSchema> schemas_;
   std::map<std::uint16_t, McapChannel> channels_;
   std::set<std::uint16_t> checked_channels_;
+  bool has_asked_summary_ = false;
   std::vector<McapAttachment> attachments_;
   std::vector<McapMetadata> metadata_;
   std::string name_, library_;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <map>
 #include <span>
 #include <stdexcept>
 #include <utility>
@@ -37,6 +38,12 @@ std::optional<View> summary_of(View file) {
   const auto got = crc32_z(0, reinterpret_cast<const Bytef*>(summed.data()), summed.size());
   if (got != crc) return std::nullopt;
   return file.subspan(start, footer_at - start);
+}
+
+/// False when what is told of its id already is something else.
+template <class Told>
+bool is_told_once(std::map<std::uint16_t, Told>& known, const Told& told) {
+  return known.try_emplace(told.id, told).first->second == told;
 }
 
 struct Statistics {
@@ -113,10 +120,13 @@ bool read_metadata_index(McapCursor record, View file, std::uint64_t& left, Mcap
 
 std::optional<McapSummary> read_summary(const std::filesystem::path& file) {
   const MappedFile mapped{file};
-  const View bytes = mapped.bytes();
-  if (!mcap::begins_with_magic(bytes)) {
+  if (!mcap::begins_with_magic(mapped.bytes())) {
     throw std::runtime_error(fmt::format("'{}' is no MCAP file", file.string()));
   }
+  return read_summary(mapped.bytes());
+}
+
+std::optional<McapSummary> read_summary(std::span<const std::byte> bytes) {
   const auto records = summary_of(bytes);
   if (!records) return std::nullopt;
   McapSummary summary;
@@ -137,16 +147,12 @@ std::optional<McapSummary> read_summary(const std::filesystem::path& file) {
       break;  // what stands behind it has no hash
     }
     switch (record.op) {
-      case Op::schema: {
-        McapSchema schema = read_schema(record.body);
-        summary.schemas[schema.id] = std::move(schema);
+      case Op::schema:
+        if (!is_told_once(summary.schemas, read_schema(record.body))) return std::nullopt;
         break;
-      }
-      case Op::channel: {
-        McapChannel channel = read_channel(record.body);
-        summary.channels[channel.id] = std::move(channel);
+      case Op::channel:
+        if (!is_told_once(summary.channels, read_channel(record.body))) return std::nullopt;
         break;
-      }
       case Op::statistics: statistics = read_statistics(record.body, summary); break;
       case Op::chunk_index: read_chunk_index(record.body, summary); break;
       case Op::attachment_index: read_attachment_index(record.body, summary); break;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -33,8 +35,10 @@ struct McapSummary {
 /// Reads no more of the file than its summary and the metadata, however long it is; whether the
 /// rest is as it was written is not looked at. Nothing: it has no summary, or one without
 /// statistics, counts of messages by channel, their channels and schemas or indexes of its chunks,
-/// or whose checksum is not right. Throws std::runtime_error for a file that cannot be read or is
-/// no MCAP file.
+/// or one that tells a channel or schema twice otherwise, or whose checksum is not right. Throws
+/// std::runtime_error for a file that cannot be read or is no MCAP file.
 std::optional<McapSummary> read_summary(const std::filesystem::path& file);
+/// The same of the bytes of an MCAP file.
+std::optional<McapSummary> read_summary(std::span<const std::byte> bytes);
 
 }  // namespace armature

@@ -173,6 +173,35 @@ TEST_P(Mcap, WithADamagedChunkLosesThatChunkOnly) {
   EXPECT_EQ(last, kMessages - 1U) << "what comes after it is read";
 }
 
+TEST_P(Mcap, WithADamagedChunkThatTellsItsChannelsKnowsThemFromItsSummary) {
+  write();
+  const std::string whole = bytes();
+  const std::size_t first = places_of(mcap::Op::chunk, whole).front();
+  std::string changed = whole;
+  changed[first + 100] ^= 0x01;
+  replace(changed);
+  McapReader reader{file_};
+  int count = 0;
+  while (const auto message = reader.next()) {
+    EXPECT_EQ(message->channel->topic, message->sequence % 3 == 0 ? "/b" : "/a");
+    ++count;
+  }
+  EXPECT_GT(count, kMessages - 50);
+  EXPECT_EQ(reader.schemas().at(1).name, "std_msgs/msg/String");
+  const std::string damaged = "the chunk at byte " + std::to_string(first);
+  ASSERT_EQ(reader.problems().size(), 3U);
+  EXPECT_EQ(reader.problems()[0].substr(0, damaged.size()), damaged);
+  EXPECT_EQ(reader.problems()[1],
+            "what is not told of its channels where they begin is in its summary");
+  EXPECT_EQ(reader.problems()[2], "the checksum of its messages is wrong: it was changed");
+
+  replace(changed.substr(0, places_of(mcap::Op::data_end, whole).front()));
+  McapReader cut{file_};
+  while (const auto message = cut.next()) {
+    EXPECT_EQ(message->channel->topic, "/b") << "without its summary nobody knows the other one";
+  }
+}
+
 TEST_P(Mcap, WithSomethingBehindItsEndIsNotWhole) {
   write();
   replace(bytes() + "more");
@@ -288,6 +317,31 @@ TEST(McapReader, KeepsToWhatAChannelOrASchemaWasFirstSaidToBe) {
                                       RawMcap::text("ros2msg") + RawMcap::text("bool data"))),
       Problems{"schema 1 is told twice: at byte 75 it is 'a/msg/C', and before it was "
                "'a/msg/B', which counts"});
+}
+
+TEST(McapReader, TellsWhatDiffersOfAChannelOrASchemaThatKeepsItsName) {
+  const auto schema = [](const std::string& encoding, const std::string& data) {
+    return RawMcap::record(RawMcap::kSchema, RawMcap::number(std::uint16_t{1}) +
+                                                 RawMcap::text("a/msg/B") +
+                                                 RawMcap::text(encoding) + RawMcap::text(data));
+  };
+  EXPECT_EQ(problems_of(RawMcap::schema(1) + schema("ros2msg", "int8 data")),
+            Problems{"schema 1, 'a/msg/B', is told twice: at byte 75 it has another text than "
+                     "before, and what was before counts"});
+  EXPECT_EQ(problems_of(RawMcap::schema(1) + schema("ros2idl", "int8 data")),
+            Problems{"schema 1, 'a/msg/B', is told twice: at byte 75 it has another encoding and "
+                     "another text than before, and what was before counts"});
+  const std::string entry = RawMcap::text("key") + RawMcap::text("value");
+  const std::string map = RawMcap::number(static_cast<std::uint32_t>(entry.size())) + entry;
+  const auto again = [](const std::string& channel) {
+    return problems_of(RawMcap::channel(2, 0, kNoMap) + channel);
+  };
+  EXPECT_EQ(again(RawMcap::channel(2, 0, map)),
+            Problems{"channel 2, '/b', is told twice: at byte 59 it has other metadata than "
+                     "before, and what was before counts"});
+  EXPECT_EQ(again(RawMcap::channel(2, 7, map)),
+            Problems{"channel 2, '/b', is told twice: at byte 59 it has another schema and other "
+                     "metadata than before, and what was before counts"});
 }
 
 TEST(McapReader, RefusesWhatIsNoRecording) {

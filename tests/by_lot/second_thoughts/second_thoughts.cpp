@@ -37,10 +37,10 @@ class SecondThoughts final : public Component {
 
   double about(double most) { return most * (2 * chance_.share() - 1); }
 
-  void move(msg::Point& point, double most_m) {
-    point.x_(point.x_() + about(most_m));
-    point.y_(point.y_() + about(most_m));
-    point.z_(point.z_() + about(most_m));
+  void move(msg::Point& point, double max_m) {
+    point.x_(point.x_() + about(max_m));
+    point.y_(point.y_() + about(max_m));
+    point.z_(point.z_() + about(max_m));
   }
 
   msg::NeedlePlan other(msg::NeedlePlan plan) {

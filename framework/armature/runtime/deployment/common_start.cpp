@@ -77,7 +77,7 @@ bool CommonStart::all_have_met() {
 std::optional<std::string> CommonStart::waiting(Time now) {
   if (!std::exchange(is_told_, true)) topic_.publish(topic_.loan(), now);
   const bool have_all_met = all_have_met();
-  most_informed_ = std::max(have_all_met ? most_informed_ : 0, writer_->peers());
+  max_informed_ = std::max(have_all_met ? max_informed_ : 0, writer_->peers());
   if (!have_all_met) {
     const auto other =
         std::ranges::find(others_, false, [](const Other& o) { return o.has_met.load(); });
@@ -85,7 +85,7 @@ std::optional<std::string> CommonStart::waiting(Time now) {
                        other == others_.end() ? others_.front().process : other->process);
   }
   const int count = static_cast<int>(others_.size());
-  if (most_informed_ >= count && writer_->acknowledged(Duration{0})) return std::nullopt;
+  if (max_informed_ >= count && writer_->acknowledged(Duration{0})) return std::nullopt;
   return fmt::format("not every process has heard that '{}' has met all", process_);
 }
 

@@ -52,7 +52,7 @@ class CommonStart {
   Topic topic_;
   RemoteWriter* writer_ = nullptr;  // the topic's
   bool is_told_ = false, all_have_met_ = false;
-  int most_informed_ = 0;  // how many had met this one, since all have met
+  int max_informed_ = 0;  // how many had met this one, since all have met
   std::deque<Other> others_;
 };
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 
 namespace armature {
@@ -34,6 +35,21 @@ inline Utf8Character first_character(std::string_view text) {
   const bool surrogate = code >= 0xD800 && code <= 0xDFFF;
   if (code < kSmallest[length] || code > 0x10FFFF || surrogate) return {};
   return {length, code};
+}
+
+/// The first bytes of `text`, at most so many, and no part of a character.
+inline std::string_view beginning_of(std::string_view text, std::size_t max_bytes) {
+  if (text.size() <= max_bytes) return text;
+  std::size_t end = max_bytes;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) --end;
+  return text.substr(0, end);
+}
+
+/// As much of a text that others wrote, of any length, as a message quotes.
+inline std::string in_part(std::string_view text) {
+  constexpr std::size_t kMaxBytes = 200;
+  const std::string_view part = beginning_of(text, kMaxBytes);
+  return std::string{part} + (part.size() < text.size() ? "..." : "");
 }
 
 /// Whether all of `text` is UTF-8.

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <utility>
 
+#include "armature/values/utf8.hpp"
 #include "armature/volume/inflated.hpp"
 #include "armature/volume/nrrd_header.hpp"
 
@@ -87,10 +88,7 @@ Expected<Volume> volume_from(std::istream& in) {
   auto header = read_nrrd_header(in);
   if (!header) return tl::unexpected{header.error()};
   const NumberType* type = type_named(header->type);
-  if (!type) {
-    constexpr std::size_t kShown = 200;
-    return refuse(fmt::format("the type '{}' is not read", header->type.substr(0, kShown)));
-  }
+  if (!type) return refuse(fmt::format("the type '{}' is not read", in_part(header->type)));
   if (type->bytes > 1 && !header->big_endian) {
     return refuse(
         fmt::format("its header has no 'endian', and numbers of type '{}' need it", header->type));

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <utility>
 
+#include "armature/values/utf8.hpp"
 #include "armature/volume/volume_axes.hpp"
 
 namespace armature {
@@ -36,15 +37,9 @@ std::string key_of(const std::string& name) {
   return key;
 }
 
-/// In a message: a file that is no header may be one line of any length.
-std::string shown(const std::string& text) {
-  constexpr std::size_t kLongest = 200;
-  return text.size() > kLongest ? text.substr(0, kLongest) + "..." : text;
-}
-
 std::string place_of(const Field& field) {
-  return fmt::format("line {}: its '{}' is '{}'", field.line, shown(field.name),
-                     shown(field.value));
+  return fmt::format("line {}: its '{}' is '{}'", field.line, in_part(field.name),
+                     in_part(field.value));
 }
 
 /// "name: value" lines up to the empty one, behind the first line of the file. "key:=value" says
@@ -61,13 +56,13 @@ Expected<Fields> fields_of(std::istream& in) {
     if (line[0] == '#' || (!is_field && line.find(":=") != std::string::npos)) continue;
     if (!is_field) {
       return refuse(fmt::format("line {}: '{}' is neither 'field: value' nor 'key:=value'", number,
-                                shown(line)));
+                                in_part(line)));
     }
     Field field{line.substr(0, colon), line.substr(colon + 2), number};
     const auto [before, is_new] = fields.emplace(key_of(field.name), field);
     if (is_new) continue;
     return refuse(fmt::format("line {}: '{}' is there twice, in line {} as well: which one counts?",
-                              number, shown(field.name), before->second.line));
+                              number, in_part(field.name), before->second.line));
   }
   return fields;
 }
@@ -152,7 +147,7 @@ Expected<VolumeGeometry> geometry_of(const Fields& fields) {
     constexpr int kMost = 4096;  // along an axis
     if (!(sizes >> size) || size < 2 || size > kMost) {
       return refuse(fmt::format("its sizes '{}' are not three numbers of 2 to {}",
-                                shown(field("sizes")), kMost));
+                                in_part(field("sizes")), kMost));
     }
     count *= static_cast<std::size_t>(size);
   }
@@ -163,7 +158,7 @@ Expected<VolumeGeometry> geometry_of(const Fields& fields) {
     return refuse(
         fmt::format("its space is '{}', not left-posterior-superior or "
                     "right-anterior-superior",
-                    shown(field("space"))));
+                    in_part(field("space"))));
   }
   auto directions = numbers_in(field("spacedirections")), origin = numbers_in(field("spaceorigin"));
   std::array<Eigen::Vector3d, 3> steps;
@@ -201,7 +196,7 @@ Expected<NrrdHeader> read_nrrd_header(std::istream& in) {
   const std::string& encoding = fields->at("encoding").value;
   header.is_compressed = encoding == "gzip" || encoding == "gz";
   if (!header.is_compressed && encoding != "raw") {
-    return refuse(fmt::format("its encoding is '{}'; raw and gzip are read", shown(encoding)));
+    return refuse(fmt::format("its encoding is '{}'; raw and gzip are read", in_part(encoding)));
   }
   const auto endian = fields->find("endian");
   if (endian == fields->end()) return header;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "interned_text.hpp"
 
-#include <algorithm>
 #include <mutex>
 #include <set>
 #include <string>
+
+#include "armature/values/utf8.hpp"
 
 namespace armature::ik::process {
 namespace {
@@ -29,16 +30,6 @@ class Kept {
   std::set<std::string, std::less<>> texts_;
 };
 
-/// The first `most` bytes, whole characters of UTF-8 only.
-std::string_view cut(std::string_view text, std::size_t most) {
-  std::size_t length = std::min(text.size(), most);
-  const auto within_character = [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0) == 0x80;
-  };
-  while (length > 0 && length < text.size() && within_character(text[length])) --length;
-  return text.substr(0, length);
-}
-
 }  // namespace
 
 std::optional<std::string_view> lasting_label(std::string_view label) {
@@ -50,7 +41,7 @@ std::optional<std::string_view> lasting_label(std::string_view label) {
 std::optional<std::string_view> lasting_detail(std::string_view text) {
   constexpr std::size_t kMax = 1024, kLongest = 500;
   static Kept details{kMax};
-  return details.keep(cut(text, kLongest));
+  return details.keep(beginning_of(text, kLongest));
 }
 
 }  // namespace armature::ik::process

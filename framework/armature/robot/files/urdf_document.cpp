@@ -15,6 +15,7 @@
 #include "armature/config/problems.hpp"
 #include "armature/config/source_text.hpp"
 #include "armature/robot/files/urdf_words.hpp"
+#include "armature/values/utf8.hpp"
 
 namespace armature {
 namespace {
@@ -44,16 +45,6 @@ class Complaints final : public console_bridge::OutputHandler {
     return only;
   }
 };
-
-/// As much of what urdfdom says as a screen holds: it repeats what is written, however long that
-/// is.
-std::string cut(const std::string& text) {
-  constexpr std::size_t kLongest = 200;
-  if (text.size() <= kLongest) return text;
-  std::size_t end = kLongest;
-  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0) == 0x80) --end;
-  return text.substr(0, end) + "...";
-}
 
 /// Where the document type before the first element begins, if it declares something itself; npos:
 /// nowhere.
@@ -139,7 +130,7 @@ UrdfDocument UrdfDocument::load(const std::filesystem::path& file, const Origin&
         all.find('[' + name + ']') != all.npos || all.find('\'' + name + '\'') != all.npos;
     if (named && (place.line == 0 || origin.line < place.line)) place = origin;
   }
-  std::ranges::transform(complaints.texts, complaints.texts.begin(), cut);
+  std::ranges::transform(complaints.texts, complaints.texts.begin(), in_part);
   throw ConfigError{{{place, fmt::format("not a robot description that urdfdom reads: {}",
                                          fmt::join(complaints.texts, "; "))}}};
 }

@@ -5,6 +5,8 @@
 #include <charconv>
 #include <utility>
 
+#include "armature/values/utf8.hpp"
+
 namespace armature {
 namespace {
 
@@ -26,19 +28,13 @@ std::optional<std::uint64_t> number(std::string_view text) {
   return whole ? std::optional{value} : std::nullopt;
 }
 
-/// Whether a character of UTF-8 goes on with this byte.
-bool is_inside_a_character(char byte) {
-  return (static_cast<unsigned char>(byte) & 0xC0U) == 0x80U;
-}
-
 }  // namespace
 
 /// The other end counts lines by their ends.
 void LineExchange::send(std::string line) {
   if (line.size() > kLongestLine) {
-    std::size_t end = kLongestLine - kCut.size();
-    while (end > 0 && is_inside_a_character(line[end])) --end;
-    line.replace(end, line.npos, kCut);
+    line.resize(beginning_of(line, kLongestLine - kCut.size()).size());
+    line += kCut;
   }
   std::ranges::replace(line, '\n', ' ');
   if (line.empty()) line = " ";

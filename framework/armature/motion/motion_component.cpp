@@ -86,6 +86,7 @@ Motion::Motion(Setup& setup)
                    : std::nullopt},
       execution_{model_, limits_of(setup.params(), model_), execution_of(parameters_),
                  tracker_ ? &*tracker_ : nullptr, no_tracker_} {
+  check_stop(setup.params(), model_, setup.stop_within());
   if (ik_) ik_.object_to(unfit_to_track);
   if (parameters_.remote_centre && !tracker_) {
     setup.params().refuse({"remote_centre"}, "'remote_centre' is for tracked targets only, and " +

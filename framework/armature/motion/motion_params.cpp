@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 #include <string_view>
@@ -59,6 +60,24 @@ void check_idle_limits(const Parameters& parameters, const Params& params, const
   }
 }
 
+/// Where 0 stands for no limit of its own, a number beside it would let nothing move.
+void check_tiny_limits(const Parameters& parameters, const Params& params,
+                       config::Problems& problems) {
+  constexpr double kMinTurning = 1e-3, kMinSliding = 1e-6;
+  const auto check = [&](const char* name, double value, double min) {
+    if (value == 0 || value >= min) return;
+    problems.add(params.origin(name),
+                 fmt::format("{} is {:g}, and must be at least {:g}, or 0 for no limit of its own: "
+                             "nothing would move",
+                             name, value, min));
+  };
+  check("max_jerk_rad_s3", parameters.max_jerk_rad_s3, kMinTurning);
+  check("max_jerk_m_s3", parameters.max_jerk_m_s3, kMinSliding);
+  check("max_velocity_m_s", parameters.max_velocity_m_s, kMinSliding);
+  check("max_acceleration_m_s2", parameters.max_acceleration_m_s2, kMinSliding);
+  check("max_tracking_velocity_m_s", parameters.max_tracking_velocity, kMinSliding);
+}
+
 /// Empty when neither kind of joint has a limit.
 JointVector max_jerk_of(const Parameters& parameters, const RobotModel& model) {
   const double turning = parameters.max_jerk_rad_s3, sliding = parameters.max_jerk_m_s3;
@@ -73,6 +92,7 @@ MotionLimits limits_of(const Params& params, const RobotModel& model) {
   const auto parameters = Parameters::read(params);
   config::Problems problems;
   check_idle_limits(parameters, params, model, problems);
+  check_tiny_limits(parameters, params, problems);
   MotionLimits limits{
       limits_from({parameters.max_velocity_rad_s, "max_velocity_rad_s", "rad/s"},
                   {parameters.max_velocity_m_s, "max_velocity_m_s", "m/s"}, params, model,
@@ -83,6 +103,29 @@ MotionLimits limits_of(const Params& params, const RobotModel& model) {
       max_jerk_of(parameters, model)};
   problems.throw_if_any();
   return limits;
+}
+
+/// A stop heeds no limit of jerk.
+void check_stop(const Params& params, const RobotModel& model, Duration within) {
+  const MotionLimits limits = limits_of(params, model);
+  for (int i = 0; i < model.dof(); ++i) {
+    const double brakes = limits.max_acceleration[i], range = model.upper()[i] - model.lower()[i];
+    // From rest at one end of its range to rest at the other one it comes to this.
+    const double speed = std::min(limits.max_velocity[i], std::sqrt(brakes * range));
+    if (speed / brakes <= to_seconds(within)) continue;
+    const Joint& joint = model.joints()[static_cast<std::size_t>(model.independent_joint(i))];
+    const bool slides = joint.type == Joint::Type::prismatic;
+    const char *const velocity = slides ? "max_velocity_m_s" : "max_velocity_rad_s",
+                      *const acceleration =
+                          slides ? "max_acceleration_m_s2" : "max_acceleration_rad_s2";
+    params.refuse({acceleration, velocity},
+                  fmt::format("joint {} of robot {} takes {:.3g} s to stop from {:.3g} {} with "
+                              "{:.3g} {}, and 'run: {{stop_within_s}}' is {:g}; raise that, or "
+                              "{}, or lower {}",
+                              joint.name, model.name(), speed / brakes, speed,
+                              slides ? "m/s" : "rad/s", brakes, slides ? "m/s2" : "rad/s2",
+                              to_seconds(within), acceleration, velocity));
+  }
 }
 
 /// The robot as the solver has it: narrower, and without what is locked.

@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // Limits to plan with: 1. a default gives way to a slower joint, joint by joint, 2. one that was
-// written does not, and is refused with its place.
+// written does not, and is refused with its place, 3. so is one with which nothing would move, and
+// 4. one from which no stop comes to rest in time.
 #include "armature/motion/motion_params.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include "armature/config/document.hpp"
 #include "armature/kinds/declared_params.hpp"
+#include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
 
 /// The defaults are 1 rad/s and 2.5 rad/s2: `slow` turns slower, `weak` gathers speed more slowly.
 RobotModel uneven_arm() {
@@ -65,6 +70,42 @@ TEST(MotionParams, EveryLimitThatIsWrongIsToldAtOnce) {
   EXPECT_NE(texts[0].find("above the 3 rad/s of joint quick"), std::string::npos) << texts[0];
   EXPECT_NE(texts[1].find("max_acceleration_rad_s2 is 2.5"), std::string::npos) << texts[1];
   EXPECT_NE(texts[2].find("max_jerk_m_s3 is for joints that slide"), std::string::npos) << texts[2];
+}
+
+TEST(MotionParams, ALimitWithWhichNothingWouldMoveIsRefused) {
+  const auto told = [](const std::string& given) {
+    return test::problems_of([&] { limits_with(given); });
+  };
+  EXPECT_THAT(told("{max_jerk_rad_s3: 1e-300}"),
+              ElementsAre("given:1:19: max_jerk_rad_s3 is 1e-300, and must be at least 0.001, or 0 "
+                          "for no limit of its own: nothing would move"));
+  EXPECT_THAT(told("{max_tracking_velocity_m_s: 1e-300}"),
+              ElementsAre(HasSubstr("must be at least 1e-06, or 0 for no limit of its own")));
+  EXPECT_THAT(told("{max_jerk_rad_s3: 0.001, max_tracking_velocity_m_s: 1.0e-6}"), ElementsAre());
+  EXPECT_THAT(told("{max_jerk_rad_s3: 0}"), ElementsAre());
+}
+
+TEST(MotionParams, LimitsFromWhichNoStopComesToRestInTimeAreRefusedWithWhatItTakes) {
+  const auto told = [](const std::string& given, double within_s) {
+    return test::problems_of([&] {
+      check_stop(
+          declared_params(ARMATURE_SOURCE_DIR "/framework/armature/motion/plugin.yaml", given),
+          uneven_arm(), seconds(within_s));
+    });
+  };
+  EXPECT_THAT(told("{max_acceleration_rad_s2: 0.25}", 4), ElementsAre());
+  EXPECT_THAT(
+      told("{max_acceleration_rad_s2: 0.25}", 3),
+      ElementsAre("given:1:27: joint quick of robot uneven takes 3.54 s to stop from 0.886 rad/s "
+                  "with 0.25 rad/s2, and 'run: {stop_within_s}' is 3; raise that, or "
+                  "max_acceleration_rad_s2, or lower max_velocity_rad_s"))
+      << "half a turn is too short to come to 1 rad/s";
+  EXPECT_THAT(told("{max_acceleration_rad_s2: 0.25, max_velocity_rad_s: 0.5}", 3), ElementsAre());
+  EXPECT_THAT(told("", 0.3), ElementsAre(HasSubstr("joint quick of robot uneven takes 0.4 s")))
+      << "defaults, too";
+  EXPECT_THAT(told("{max_jerk_rad_s3: 0.001}", 0.4),
+              ElementsAre(HasSubstr("joint weak of robot uneven takes 0.5 s")))
+      << "a stop heeds no jerk";
 }
 
 }  // namespace

@@ -36,6 +36,7 @@ class ComponentSetup final : public Setup {
   void deliver_after(Duration latency) override { runner_.set_latency(latency); }
   bool is_written(std::string_view input) const override;
   std::optional<NetworkOptions> network() const override { return network_; }
+  Duration stop_within() const override { return seconds(deployment_.stop_within_s); }
   bool is_filled(std::string_view slot_name) const override;
   const PluginManifest& slot_manifest(std::string_view slot_name) const override;
   std::shared_ptr<StatusReporter> reporter() override { return runner_.reporter(); }

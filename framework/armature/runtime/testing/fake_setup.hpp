@@ -31,6 +31,7 @@ class FakeSetup final : public Setup, public Delivery {
   void deliver_after(Duration latency) override { runner_.set_latency(latency); }
   bool is_written(std::string_view) const override { return true; }
   std::optional<NetworkOptions> network() const override { return std::nullopt; }
+  Duration stop_within() const override { return seconds(3); }
   bool is_filled(std::string_view) const override { return false; }
   const PluginManifest& slot_manifest(std::string_view) const override {
     throw std::logic_error("no slots");

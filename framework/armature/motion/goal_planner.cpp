@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "armature/motion/left_path.hpp"
 #include "armature/motion/missed_pose.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/robot/kinematics/link_clearance.hpp"
@@ -20,19 +21,6 @@ namespace {
 
 tl::unexpected<PlanFailure> fail(std::string stage, std::string reason) {
   return tl::unexpected<PlanFailure>{PlanFailure{std::move(stage), std::move(reason)}};
-}
-
-/// The tool's pose at `q`, told in the same way as `like`: a direction or a rotation.
-ToolPose pose_at(const RobotModel& model, const JointVector& q, const ToolPose& like) {
-  const Eigen::Isometry3d base_T_tool = forward_kinematics(model, q);
-  ToolPose pose{.position = base_T_tool.translation()};
-  if (std::holds_alternative<Direction>(like.orientation)) {
-    const Eigen::Vector3d axis = model.pointing_axis().value_or(Eigen::Vector3d::UnitX());
-    pose.orientation = Direction{base_T_tool.linear() * axis};
-  } else {
-    pose.orientation = Eigen::Quaterniond{base_T_tool.linear()};
-  }
-  return pose;
 }
 
 /// A cartesian segment starts where the one before ended; that point needs no solution of its own.
@@ -278,6 +266,11 @@ PlanResult GoalPlanner::timed(const Path& path, const MotionGoal& goal, const Jo
   if (wrong.empty()) wrong = missed_goal(made, model_, plan.joint_path.back().q.back());
   if (!wrong.empty()) {
     return fail("trajectory", with_way_out(std::string{wrong.view()}, plan, model_));
+  }
+  if (at_rest(from)) {
+    if (auto left = left_path(model_, plan, options_.max_path_deviation)) {
+      return fail("trajectory", std::move(*left));
+    }
   }
   if (goal.max_speed > 0) {
     constexpr double kBetweenSamples = 1.0001;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,8 @@ struct PlanningOptions {
   bool path_only = false;         // a goal that the path plugin's path does not reach is refused
   bool narrow_solver = false;     // the solver was made for narrower limits, which its reasons tell
   double min_link_clearance = 0;  // [m] of the links that the robot file states to forbidden zones
+  /// By which the tool may leave a line of its path between two samples.
+  PoseResidual max_path_deviation{.position_m = 0.0005, .angle_rad = 0.25 * std::numbers::pi / 180};
 };
 
 /// From a goal to a trajectory: path, inverse kinematics at every sample, one branch per sample for
@@ -41,6 +44,7 @@ class GoalPlanner {
   /// that is stepwise never goes straight: its stops are the path's. With key poses only the path
   /// plugin's path, from rest: anything else would miss them. With a greatest speed from rest, too;
   /// a stop that comes first counts for nothing there.
+  /// From rest the tool leaves no line of a path by more than `max_path_deviation`.
   /// With forbidden zones every link that the robot file states keeps `min_link_clearance` on the
   /// whole way, a stop before it left out; where it does not, the way begins in another branch, if
   /// there is one that does. The tool goes into a zone that says so (`tool_enters`) behind the

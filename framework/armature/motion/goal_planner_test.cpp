@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "armature/motion/gantry_stages_test.hpp"
+#include "armature/motion/left_path.hpp"
 
 namespace armature {
 namespace {
@@ -321,6 +323,89 @@ TEST(GoalPlanner, RefusesABranchThatTakesTheToolPastItsPose) {
   EXPECT_EQ(plan.error().reason,
             "sample 1 of 1 of segment 1: the branch that was taken misses its pose by 20.0000 mm "
             "and 0.0000 degrees");
+}
+
+/// A pin half a metre beside the axis about which it turns.
+RobotModel crank() {
+  Joint joint;
+  joint.name = "crank";
+  joint.a = 0.5;
+  joint.lower = -2;
+  joint.upper = 2;
+  joint.max_velocity = 1;
+  joint.max_acceleration = 2.5;
+  return RobotModel{{"crank",
+                     RobotModel::Convention::standard,
+                     {joint},
+                     {{.name = "tool", .parent_joint = 0}},
+                     FrameId{0},
+                     Eigen::Vector3d::UnitX(),
+                     std::nullopt}};
+}
+
+ToolPose pin_at(double angle) {
+  const Eigen::Vector3d outward{std::cos(angle), std::sin(angle), 0};
+  return {0.5 * outward, Direction{outward}};
+}
+
+class CrankIk final : public IkSolver {
+ public:
+  IkStatus solve(const IkGoal& goal, const JointVector&, IkBranches& out, IkState&) const override {
+    out.clear();
+    IkBranch& branch = out.add();
+    branch.q = JointVector::Constant(1, std::atan2(goal.pose.position.y(), goal.pose.position.x()));
+    branch.within_limits = true;
+    return {};
+  }
+};
+
+/// From the start to the goal without a sample between.
+class OneStep final : public PathPlanner {
+ public:
+  PathSegment::Space space = PathSegment::Space::cartesian;
+
+  Expected<Path> plan(const PathRequest& request) const override {
+    return Path{{.space = space, .samples = {{0, request.start}, {1, request.goal}}}};
+  }
+};
+
+TEST(GoalPlanner, RefusesALineThatTheToolLeavesBetweenItsSamples) {
+  const Gantry gantry;
+  const RobotModel model = crank();
+  const CrankIk ik;
+  const OneStep path;
+  const auto reason = [&](const PlanningOptions& options) {
+    const MotionLimits limits{JointVector::Constant(1, 1.0), JointVector::Constant(1, 2.5)};
+    GoalPlanner planner{model, {path, ik, gantry.select, gantry.trajectory}, limits, options};
+    const JointVector zero = JointVector::Zero(1);
+    const auto plan = planner.plan({.id = 1, .pose = pin_at(0.2)}, {zero, zero, zero}, kStart);
+    return plan ? "planned" : plan.error().stage + ": " + plan.error().reason;
+  };
+  EXPECT_EQ(reason({.path_only = true}),
+            "trajectory: between samples 1 and 2 of 2 of segment 1 the tool is 2.50 mm and 0.00 "
+            "degrees beside its path; 0.50 mm and 0.25 degrees are allowed there "
+            "(max_path_deviation_mm, max_path_deviation_deg)");
+  EXPECT_EQ(reason({.path_only = true, .max_path_deviation = {0.0026, 0.001}}), "planned");
+  EXPECT_EQ(reason({}), "planned") << "straight in joint space";
+}
+
+/// On an arc the tool is beside the lines between samples by what the arc bends.
+TEST(LeftPath, IsNothingWhereThePathItselfBends) {
+  const RobotModel model = crank();
+  Plan plan{.path = {{.space = PathSegment::Space::cartesian, .samples = {}}},
+            .joint_path = {{.s = {}, .q = {}}}};
+  plan.trajectory = {.dof = 1, .knots = {0}, .pieces = {}};
+  for (const double angle : {0.0, 0.1, 0.2}) {
+    plan.path[0].samples.push_back({5 * angle, pin_at(angle)});
+    plan.joint_path[0].s.push_back(5 * angle);
+    plan.joint_path[0].q.push_back(JointVector::Constant(1, angle));
+    if (angle == 0) continue;
+    plan.trajectory.knots.push_back(10 * angle);
+    plan.trajectory.pieces.push_back(Quintic::between({angle - 0.1, 0, 0}, {angle, 0, 0}, 1));
+  }
+  EXPECT_EQ(left_path(model, plan, {0.0005, 0.001}), std::nullopt);
+  plan.path[0].samples[1].pose = {(pin_at(0).position + pin_at(0.2).position) / 2, Direction{}};
+  EXPECT_NE(left_path(model, plan, {0.0005, 0.001}), std::nullopt);
 }
 
 /// A straight way to 50 mm beside the goal.

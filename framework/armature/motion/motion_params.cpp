@@ -140,7 +140,9 @@ RobotModel solver_model_of(const Params& params, const RobotModel& model) {
 PlanningOptions planning_of(const Parameters& parameters) {
   return {.path_only = parameters.path_only,
           .narrow_solver = parameters.limit_margin_rad > 0 || parameters.limit_margin_m > 0,
-          .min_link_clearance = parameters.min_link_clearance};
+          .min_link_clearance = parameters.min_link_clearance,
+          .max_path_deviation = {.position_m = parameters.max_path_deviation_m,
+                                 .angle_rad = parameters.max_path_deviation_rad}};
 }
 
 namespace {

@@ -91,7 +91,7 @@ Expected<Path> Orientations::plan(const PathRequest& request) const {
   if (!keys) return tl::unexpected{keys.error()};
   if (keys->poses.size() == 1) {
     return Path{{.space = PathSegment::Space::joint,
-                 .samples = {{1, valid->goal}},
+                 .samples = {{.s = 1, .pose = valid->goal, .joints = valid->start_joints}},
                  .stop_at_end = true,
                  .duration_s = {}}};
   }

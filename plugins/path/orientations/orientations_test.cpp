@@ -216,6 +216,20 @@ TEST(Orientations, ATurnByRoundingHasNoWeight) {
   EXPECT_NEAR(key->s, to_key, 1e-5);
 }
 
+/// A solver may know other joints for that pose, on the way to which the tool would leave it.
+TEST(Orientations, AnArmThatIsAtItsGoalStaysAsItStands) {
+  PathRequest request = three_bores();
+  request.through = {};
+  request.goal = request.start;
+  request.goal.position.x() += 1e-9;
+  request.start_joints = JointVector::Constant(7, 0.1);
+  const auto path = plan(request);
+  ASSERT_TRUE(path) << path.error().text;
+  ASSERT_EQ(path->size(), 1U);
+  ASSERT_EQ(path->front().samples.size(), 1U);
+  EXPECT_EQ(path->front().samples.front().joints, request.start_joints);
+}
+
 TEST(Orientations, RefusesWhatHasNoWayOrTooManySamples) {
   const auto refusal = [](auto change, const Parameters& parameters = {}) {
     PathRequest request = three_bores();

@@ -9,6 +9,7 @@
 
 #include "armature/volume/dicom_slice.hpp"
 #include "armature/volume/slice_stack.hpp"
+#include "armature/volume/volume_axes.hpp"
 
 namespace armature {
 
@@ -28,9 +29,14 @@ Expected<Volume> read_dicom_series(const fs::path& folder) {
   if (files.empty()) return refuse(fmt::format("'{}': it holds no DICOM files", folder.string()));
   std::ranges::sort(files);
   std::vector<DicomSlice> slices;
+  std::size_t voxels = 0;
   for (const fs::path& file : files) {
     auto slice = read_dicom_slice(file);
     if (!slice) return refuse(fmt::format("'{}': {}", file.string(), slice.error().text));
+    voxels += slice->hounsfield.size();
+    if (auto wrong = too_many_voxels(voxels)) {
+      return refuse(fmt::format("'{}': {}", folder.string(), *wrong));
+    }
     slices.push_back(std::move(*slice));
   }
   auto volume = stacked(std::move(slices));

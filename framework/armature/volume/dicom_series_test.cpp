@@ -39,7 +39,8 @@ struct Slice {
   std::string gantry_tilt;
   int of_acquisition = 0;
   int columns = 4, rows = 3;
-  std::vector<Uint16> pixels;  // none: 100 times its number, counted up
+  int frames = 0, samples = 1;  // 0: they are not told
+  std::vector<Uint16> pixels;   // none: 100 times its number, counted up
   PixelBits bits;
   std::string slope = "2", intercept = "-1024";
 };
@@ -77,7 +78,8 @@ class DicomSeries : public testing::Test {
     number(DCM_BitsStored, slice.bits.stored);
     number(DCM_HighBit, slice.bits.high);
     number(DCM_PixelRepresentation, slice.bits.is_signed ? 1 : 0);
-    number(DCM_SamplesPerPixel, 1);
+    number(DCM_SamplesPerPixel, slice.samples);
+    if (slice.frames > 0) put(DCM_NumberOfFrames, std::to_string(slice.frames));
     std::vector<Uint16> pixels = slice.pixels;
     for (int i = 0; pixels.size() < 12; ++i) {
       pixels.push_back(static_cast<Uint16>(100 * slice.number + i));
@@ -306,6 +308,64 @@ TEST_F(DicomSeries, OfAnotherModalityIsRefused) {
   mr.modality = "MR";
   write_series(3, mr);
   EXPECT_EQ(refusal(), "/slice00.dcm': its modality is 'MR', not 'CT'");
+}
+
+TEST_F(DicomSeries, WithANumberThatIsNoneIsRefusedAndNotReadUpToItsComma) {
+  Slice slice;
+  slice.spacing = "1,25\\1,25";
+  write_series(3, slice);
+  EXPECT_EQ(refusal(), "/slice00.dcm': its Pixel Spacing is '1,25', which is no number");
+  for (const std::string slope : {"1,5", "0x10", "nan", "inf", "1 2", "steep"}) {
+    slice = {.slope = slope};
+    write_series(3, slice);
+    EXPECT_EQ(refusal(), "/slice00.dcm': its Rescale Slope is '" + slope + "', which is no number");
+  }
+  slice = {.slope = ""};
+  write_series(3, slice);
+  EXPECT_EQ(refusal(), "/slice00.dcm': it has no Rescale Slope");
+  slice = {.slope = "+2.0E0 ", .intercept = " -1024 "};
+  write_series(3, slice);
+  EXPECT_EQ(refusal(), "read");
+}
+
+TEST_F(DicomSeries, WhosePixelsWouldBeAlikeOrMirroredIsRefused) {
+  write_series(3, {.slope = "0"});
+  EXPECT_EQ(refusal(), "/slice00.dcm': its Rescale Slope is 0: all its pixels would be alike");
+  write_series(3, {.spacing = "-0.5\\0.75"});
+  EXPECT_EQ(refusal(), "/slice00.dcm': its Pixel Spacing is -0.5 and 0.75 mm");
+}
+
+TEST_F(DicomSeries, OfSeveralFramesOrColoursIsRefusedAndNotReadInPart) {
+  std::vector<Uint16> pixels(36, 1000);
+  write_series(3, {.frames = 3, .pixels = pixels});
+  EXPECT_EQ(refusal(), "/slice00.dcm': it has 3 frames; files of one slice each are read");
+  write_series(3, {.samples = 3, .pixels = pixels});
+  EXPECT_EQ(refusal(), "/slice00.dcm': it has 3 numbers a pixel, as colours have; 1 is read");
+  write_series(3, {.frames = 1});
+  EXPECT_EQ(refusal(), "read");
+}
+
+TEST_F(DicomSeries, FarFromEveryTomographIsRefused) {
+  write_series(3, {.position = {2e6, 0, 0}});
+  EXPECT_EQ(refusal(), "': its first voxel is at (2e+06, 0, 0) mm; up to 100 m are read");
+}
+
+TEST_F(DicomSeries, OfALongFileIsRefusedBeforeItIsRead) {
+  write_series(3);
+  fs::resize_file(folder_ / "slice01.dcm", std::uintmax_t{20} << 30);  // a hole: it takes no room
+  EXPECT_EQ(refusal(),
+            "/slice01.dcm': it has 21474836480 bytes; a slice with at most 268435456 is read");
+}
+
+TEST_F(DicomSeries, OfManyMixedOnesTellsTheFirstWithWhatATerminalShows) {
+  for (int i = 0; i < 8; ++i) {
+    Slice slice = at(i, 1.25 * i);
+    slice.series = fmt::format("{}\x1b[31m{}", i, std::string(90, '1'));
+    write(slice);
+  }
+  const std::string first = "?[31m" + std::string(58, '1') + "... (1 files)";
+  EXPECT_EQ(refusal(), "': 8 series are mixed: 0" + first + " 1" + first + " 2" + first + " 3" +
+                           first + " 4" + first + " and 3 more");
 }
 
 TEST_F(DicomSeries, WithATruncatedFileIsRefusedByItsName) {

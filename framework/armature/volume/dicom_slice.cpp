@@ -6,8 +6,13 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
 
 #include "armature/volume/dicom_slice.hpp"
 
@@ -16,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// What a slice says, by tag; the first one that is missing is remembered.
+/// What a slice says, by tag; the first one that is missing or says nothing is remembered.
 class Tags {
  public:
   explicit Tags(DcmDataset& data) : data_{data} {}
@@ -31,9 +36,20 @@ class Tags {
     if (data_.findAndGetUint16(tag, value).bad()) miss(name);
     return value;
   }
+  /// Read here: DCMTK takes "1,5" for 1.
   double number(const DcmTagKey& tag, unsigned long at, const char* name) {
-    Float64 value = 0;
-    if (data_.findAndGetFloat64(tag, value, at).bad() || !std::isfinite(value)) miss(name);
+    OFString written;
+    if (data_.findAndGetOFString(tag, written, at).bad() || written.empty()) {
+      miss(name);
+      return 0;
+    }
+    const std::string text = legible(written.c_str());
+    const std::string_view digits = std::string_view{text}.substr(text.starts_with('+') ? 1 : 0);
+    double value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    if (error != std::errc{} || end != digits.data() + digits.size() || !std::isfinite(value)) {
+      tell(fmt::format("its {} is '{}', which is no number", name, text));
+    }
     return value;
   }
   std::optional<double> optional_number(const DcmTagKey& tag) {
@@ -43,15 +59,16 @@ class Tags {
   Vector3d vector(const DcmTagKey& tag, unsigned long at, const char* name) {
     return {number(tag, at, name), number(tag, at + 1, name), number(tag, at + 2, name)};
   }
-  const std::string& missing() const { return missing_; }
+  const std::string& problem() const { return problem_; }
 
  private:
-  void miss(const char* name) {
-    if (missing_.empty()) missing_ = name;
+  void miss(const char* name) { tell(fmt::format("it has no {}", name)); }
+  void tell(std::string problem) {
+    if (problem_.empty()) problem_ = std::move(problem);
   }
 
   DcmDataset& data_;
-  std::string missing_;
+  std::string problem_;
 };
 
 /// What becomes of a pixel's 16 bits, and how many of them are its number (DICOM PS3.5,
@@ -78,7 +95,8 @@ Expected<PixelFormat> pixel_format_of(Tags& tags) {
       .intercept = tags.number(DCM_RescaleIntercept, 0, "Rescale Intercept")};
   const int allocated = tags.integer(DCM_BitsAllocated, "Bits Allocated");
   const int high = tags.integer(DCM_HighBit, "High Bit");
-  if (!tags.missing().empty()) return refuse(fmt::format("it has no {}", tags.missing()));
+  if (!tags.problem().empty()) return refuse(tags.problem());
+  if (format.slope == 0) return refuse("its Rescale Slope is 0: all its pixels would be alike");
   if (allocated != 16) {
     return refuse(fmt::format("it has {} bits a pixel; 16 are read", allocated));
   }
@@ -112,11 +130,24 @@ Expected<void> read_pixels(DcmDataset& data, const PixelFormat& format, DicomSli
   return {};
 }
 
+/// Why the pixels are more than those of one slice, of which only the first ones would be read.
+std::optional<std::string> several_planes(DcmDataset& data) {
+  Sint32 frames = 0;
+  if (data.findAndGetSint32(DCM_NumberOfFrames, frames).good() && frames != 1) {
+    return fmt::format("it has {} frames; files of one slice each are read", frames);
+  }
+  Uint16 samples = 0;
+  if (data.findAndGetUint16(DCM_SamplesPerPixel, samples).good() && samples != 1) {
+    return fmt::format("it has {} numbers a pixel, as colours have; 1 is read", samples);
+  }
+  return std::nullopt;
+}
+
 Expected<DicomSlice> slice_of(DcmDataset& data) {
   Tags tags{data};
   const std::string modality = tags.text(DCM_Modality, "Modality");
-  if (tags.missing().empty() && modality != "CT") {
-    return refuse(fmt::format("its modality is '{}', not 'CT'", modality));
+  if (tags.problem().empty() && modality != "CT") {
+    return refuse(fmt::format("its modality is '{}', not 'CT'", legible(modality)));
   }
   const DcmXfer syntax{data.getOriginalXfer()};
   if (syntax.isEncapsulated()) {
@@ -133,6 +164,11 @@ Expected<DicomSlice> slice_of(DcmDataset& data) {
   slice.column_step = tags.number(DCM_PixelSpacing, 1, "Pixel Spacing");
   const auto format = pixel_format_of(tags);
   if (!format) return tl::unexpected{format.error()};
+  if (auto wrong = several_planes(data)) return refuse(std::move(*wrong));
+  if (!(slice.row_step > 0 && slice.column_step > 0)) {
+    return refuse(
+        fmt::format("its Pixel Spacing is {:g} and {:g} mm", slice.row_step, slice.column_step));
+  }
   for (Vector3d* axis : {&slice.along_row, &slice.along_column}) {
     constexpr double kRounded = 1e-3;  // cosines of three digits are off by that
     if (std::abs(axis->norm() - 1) > kRounded) {
@@ -154,6 +190,14 @@ Expected<DicomSlice> slice_of(DcmDataset& data) {
 
 }  // namespace
 
+std::string legible(std::string text) {
+  constexpr std::size_t kLongest = 64;  // of most texts of DICOM
+  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  std::ranges::replace_if(
+      text, [](unsigned char c) { return c < ' ' || c == 0x7F; }, '?');
+  return text;
+}
+
 Vector3d DicomSlice::normal() const { return along_row.cross(along_column); }
 
 bool is_dicom_image(const std::filesystem::path& file) {
@@ -168,6 +212,13 @@ Expected<DicomSlice> read_dicom_slice(const std::filesystem::path& file) {
   // DCMTK tells its opinion on stderr; what is wrong is told in the reason.
   static const bool quiet = (OFLog::configure(OFLogger::OFF_LOG_LEVEL), true);
   static_cast<void>(quiet);
+  constexpr std::uintmax_t kMaxBytes = std::uintmax_t{256} << 20U;
+  std::error_code unknown;
+  const std::uintmax_t bytes = std::filesystem::file_size(file, unknown);
+  if (!unknown && bytes > kMaxBytes) {
+    return refuse(
+        fmt::format("it has {} bytes; a slice with at most {} is read", bytes, kMaxBytes));
+  }
   DcmFileFormat format;
   const OFCondition loaded = format.loadFile(file.c_str());
   if (loaded.bad()) {

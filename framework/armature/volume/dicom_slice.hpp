@@ -27,6 +27,9 @@ struct DicomSlice {
   Eigen::Vector3d normal() const;
 };
 
+/// What a file says, for a message: at most 64 characters, without control characters.
+std::string legible(std::string text);
+
 /// Whether a file begins as a DICOM file does, and is no DICOMDIR.
 bool is_dicom_image(const std::filesystem::path& file);
 

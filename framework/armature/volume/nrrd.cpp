@@ -9,13 +9,17 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "armature/values/regular_file.hpp"
 #include "armature/values/utf8.hpp"
-#include "armature/volume/inflated.hpp"
+#include "armature/volume/gzip_reader.hpp"
 #include "armature/volume/nrrd_header.hpp"
 
 namespace armature {
@@ -69,19 +73,37 @@ const NumberType* type_named(std::string_view name) {
   return found == std::end(kTypes) ? nullptr : found;
 }
 
-Expected<void> read_voxels(std::string_view bytes, const NrrdHeader& header, const NumberType& type,
+/// Fills a piece with the bytes that come next, and tells how many there were.
+using Bytes = std::function<Expected<std::size_t>(std::span<char>)>;
+
+Expected<void> read_voxels(const Bytes& bytes, const NrrdHeader& header, const NumberType& type,
                            Volume& volume) {
   const auto& size = volume.geometry.size;
-  for (std::size_t at = 0; at < volume.voxels.size(); ++at) {
-    const double value = type.read(bytes, at, header.big_endian.value_or(false));
-    if (!(std::abs(value) <= 32767)) {
-      const auto nx = static_cast<std::size_t>(size[0]), ny = static_cast<std::size_t>(size[1]);
-      return refuse(fmt::format("voxel ({}, {}, {}) is {:g}, which is no Hounsfield unit", at % nx,
-                                at / nx % ny, at / nx / ny, value));
+  const std::size_t voxels = volume.geometry.count(), needed = voxels * type.bytes;
+  volume.voxels.reserve(voxels);  // memory is taken as they come
+  std::string piece(std::min(needed, type.bytes << 17U), '\0');
+  for (std::size_t at = 0; at < voxels;) {
+    const std::size_t done = at * type.bytes, asked = std::min(piece.size(), needed - done);
+    const auto count = bytes({piece.data(), asked});
+    if (!count) return tl::unexpected{count.error()};
+    if (*count < asked) {
+      return refuse(fmt::format("it ends after {} of {} bytes of voxels: is it truncated?",
+                                done + *count, needed));
     }
-    volume.voxels[at] = static_cast<std::int16_t>(std::lround(value));
+    for (std::size_t i = 0; i < asked / type.bytes; ++i, ++at) {
+      const double value = type.read(piece, i, header.big_endian.value_or(false));
+      if (!(std::abs(value) <= 32767)) {
+        const auto nx = static_cast<std::size_t>(size[0]), ny = static_cast<std::size_t>(size[1]);
+        return refuse(fmt::format("voxel ({}, {}, {}) is {:g}, which is no Hounsfield unit",
+                                  at % nx, at / nx % ny, at / nx / ny, value));
+      }
+      volume.voxels.push_back(static_cast<std::int16_t>(std::lround(value)));
+    }
   }
-  return {};
+  const auto more = bytes({piece.data(), 1});
+  if (!more) return tl::unexpected{more.error()};
+  if (*more == 0) return {};
+  return refuse(fmt::format("more than {} bytes of voxels follow: are its sizes right?", needed));
 }
 
 Expected<Volume> volume_from(std::istream& in) {
@@ -93,21 +115,14 @@ Expected<Volume> volume_from(std::istream& in) {
     return refuse(
         fmt::format("its header has no 'endian', and numbers of type '{}' need it", header->type));
   }
-  std::string bytes{std::istreambuf_iterator<char>{in}, {}};
-  const std::size_t needed = header->geometry.count() * type->bytes;
-  if (header->is_compressed) {
-    auto all = inflated(bytes, needed + 1);
-    if (!all) return tl::unexpected{all.error()};
-    bytes = std::move(*all);
-  }
-  if (bytes.size() < needed) {
-    return refuse(fmt::format("it ends after {} of {} bytes of voxels: is it truncated?",
-                              bytes.size(), needed));
-  }
-  if (bytes.size() > needed) {
-    return refuse(fmt::format("more than {} bytes of voxels follow: are its sizes right?", needed));
-  }
-  Volume volume{header->geometry, std::vector<std::int16_t>(header->geometry.count())};
+  std::optional<GzipReader> packed;
+  if (header->is_compressed) packed.emplace(in);
+  const Bytes bytes = [&](std::span<char> piece) -> Expected<std::size_t> {
+    if (packed) return packed->read(piece);
+    in.read(piece.data(), static_cast<std::streamsize>(piece.size()));
+    return static_cast<std::size_t>(in.gcount());
+  };
+  Volume volume{.geometry = header->geometry};
   if (auto read = read_voxels(bytes, *header, *type, volume); !read) {
     return tl::unexpected{read.error()};
   }
@@ -117,9 +132,9 @@ Expected<Volume> volume_from(std::istream& in) {
 }  // namespace
 
 Expected<Volume> read_nrrd(const fs::path& file) {
-  std::ifstream in{file, std::ios::binary};
-  if (!in) return refuse(fmt::format("'{}' cannot be read", file.string()));
-  auto volume = volume_from(in);
+  auto in = open_regular(file);
+  if (!in) return refuse(fmt::format("'{}' cannot be read: {}", file.string(), in.error().text));
+  auto volume = volume_from(*in);
   if (!volume) return refuse(fmt::format("'{}': {}", file.string(), volume.error().text));
   return volume;
 }

@@ -10,6 +10,7 @@
 #include <map>
 #include <optional>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "armature/values/utf8.hpp"
@@ -42,15 +43,45 @@ std::string place_of(const Field& field) {
                      in_part(field.value));
 }
 
+/// The lines of a header. A file that is none may be a line of any length, or have no end of them.
+class HeaderLines {
+ public:
+  explicit HeaderLines(std::istream& in) : in_{in} {}
+
+  /// The next one without what ends it; empty at the end of the file, too.
+  Expected<std::string> next() {
+    ++number_;
+    std::string line;
+    for (int c = in_.get(); c != std::istream::traits_type::eof() && c != '\n'; c = in_.get()) {
+      if (left_-- == 0) {
+        return refuse(fmt::format("line {}: its header is longer than {} bytes", number_, kMost));
+      }
+      line += static_cast<char>(c);
+    }
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    return line;
+  }
+  /// Of the line that was read last; the first one is 1.
+  int number() const { return number_; }
+
+ private:
+  static constexpr std::size_t kMost = std::size_t{16} << 20U;
+
+  std::istream& in_;
+  std::size_t left_ = kMost;
+  int number_ = 0;
+};
+
 /// "name: value" lines up to the empty one, behind the first line of the file. "key:=value" says
 /// nothing of the voxels.
-Expected<Fields> fields_of(std::istream& in) {
+Expected<Fields> fields_of(HeaderLines& lines) {
   Fields fields;
-  int number = 1;
-  for (std::string line; std::getline(in, line);) {
-    ++number;
-    if (!line.empty() && line.back() == '\r') line.pop_back();
-    if (line.empty()) break;
+  while (true) {
+    const auto next = lines.next();
+    if (!next) return tl::unexpected{next.error()};
+    if (next->empty()) break;
+    const std::string& line = *next;
+    const int number = lines.number();
     const auto colon = line.find(':');
     const bool is_field = colon != std::string::npos && line.substr(colon).starts_with(": ");
     if (line[0] == '#' || (!is_field && line.find(":=") != std::string::npos)) continue;
@@ -151,8 +182,7 @@ Expected<VolumeGeometry> geometry_of(const Fields& fields) {
     }
     count *= static_cast<std::size_t>(size);
   }
-  constexpr std::size_t kMaxVoxels = std::size_t{1} << 30;
-  if (count > kMaxVoxels) return refuse(fmt::format("{} voxels are too many", count));
+  if (auto wrong = too_many_voxels(count)) return refuse(std::move(*wrong));
   const auto signs = signs_of(field("space"));
   if (!signs) {
     return refuse(
@@ -173,17 +203,22 @@ Expected<VolumeGeometry> geometry_of(const Fields& fields) {
     return refuse(place_of(fields.at("spaceorigin")) + ", which is no place");
   }
   if (auto wrong = set_axes(steps, geometry)) return refuse(std::move(*wrong));
-  geometry.origin = 1e-3 * first->cwiseProduct(*signs);
+  if (auto wrong = set_origin(1e-3 * first->cwiseProduct(*signs), geometry)) {
+    return refuse(std::move(*wrong));
+  }
   return geometry;
 }
 
 }  // namespace
 
 Expected<NrrdHeader> read_nrrd_header(std::istream& in) {
-  std::string magic;
-  std::getline(in, magic);
-  if (!magic.starts_with("NRRD000")) return refuse("it is no NRRD file");
-  const auto fields = fields_of(in);
+  constexpr std::string_view kMagic = "NRRD000";
+  std::string magic(kMagic.size(), '\0');
+  in.read(magic.data(), static_cast<std::streamsize>(magic.size()));
+  if (magic != kMagic) return refuse("it is no NRRD file");
+  HeaderLines lines{in};
+  if (const auto version = lines.next(); !version) return tl::unexpected{version.error()};
+  const auto fields = fields_of(lines);
   if (!fields) return tl::unexpected{fields.error()};
   for (const char* key : {"type", "encoding", "dimension", "sizes", "space"}) {
     if (!fields->contains(key)) return refuse(fmt::format("its header has no '{}'", key));

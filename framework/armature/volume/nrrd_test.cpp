@@ -4,6 +4,7 @@
 #include "armature/volume/nrrd.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -49,16 +50,16 @@ class Nrrd : public testing::Test {
     return data;
   }
   static std::string gzipped(const std::string& data) {
-    std::string out(1000, '\0');
+    std::string out(data.size() + 1000, '\0');
     z_stream stream{};
     deflateInit2(&stream, 6, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
     stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(data.data()));
     stream.avail_in = static_cast<uInt>(data.size());
     stream.next_out = reinterpret_cast<Bytef*>(out.data());
-    stream.avail_out = 1000;
+    stream.avail_out = static_cast<uInt>(out.size());
     deflate(&stream, Z_FINISH);
     deflateEnd(&stream);
-    out.resize(1000 - stream.avail_out);
+    out.resize(out.size() - stream.avail_out);
     return out;
   }
 
@@ -146,7 +147,8 @@ TEST_F(Nrrd, ThatIsAnotherThingIsRefusedByName) {
   EXPECT_EQ(refusal().substr(0, 29), "its space is 'scanner-xyz', n");
   write(raw_header("data file: voxels.raw\n"), eight_);
   EXPECT_EQ(refusal(), "line 11: its voxels are in another file, which is not read");
-  EXPECT_EQ(read_nrrd("/gone.nrrd").error().text, "'/gone.nrrd' cannot be read");
+  EXPECT_EQ(read_nrrd("/gone.nrrd").error().text,
+            "'/gone.nrrd' cannot be read: No such file or directory");
 }
 
 /// Of a sound file with one line more.
@@ -214,6 +216,53 @@ TEST_F(Nrrd, WithAFieldTwiceOrAnOriginThatIsNoPlaceIsRefusedWithTheLine) {
   wrong.replace(wrong.find("(10,20,30)"), 10, "(10,nan,30)");
   write(wrong, eight_);
   EXPECT_EQ(refusal(), "line 7: its 'space origin' is '(10,nan,30)', which is no place");
+  wrong = raw_header();
+  wrong.replace(wrong.find("(10,20,30)"), 10, "(10,-1e6,30)");
+  write(wrong, eight_);
+  EXPECT_EQ(refusal(), "its first voxel is at (10, -1e+06, 30) mm; up to 100 m are read");
+}
+
+TEST_F(Nrrd, IsReadAsFarAsItsSizesSayHoweverLongTheFileIs) {
+  constexpr std::uintmax_t kLong = std::uintmax_t{20} << 30;  // of a hole: it takes no room
+  const auto lengthened = [&](const std::string& beginning) {
+    std::ofstream{file_, std::ios::binary} << beginning;
+    fs::resize_file(file_, kLong);
+    return refusal();
+  };
+  EXPECT_EQ(lengthened("NRRD0004\n" + raw_header() + "\n" + eight_),
+            "more than 16 bytes of voxels follow: are its sizes right?");
+  EXPECT_EQ(lengthened(""), "it is no NRRD file");
+  EXPECT_EQ(lengthened("NRRD0004\n"), "line 2: its header is longer than 16777216 bytes");
+}
+
+TEST_F(Nrrd, OfManySmallPiecesIsReadOnceAndWhole) {
+  std::string sizes = header("double", "endian: little\nencoding: gzip\n");
+  sizes.replace(sizes.find("2 2 2"), 5, "90 80 70");
+  std::string numbers;
+  for (int i = 0; i < 90 * 80 * 70; ++i)
+    numbers += bytes<double>({static_cast<double>(i % 30'011)});
+  write(sizes, gzipped(numbers));
+  const auto volume = read_nrrd(file_);
+  ASSERT_TRUE(volume) << volume.error().text;
+  ASSERT_EQ(volume->voxels.size(), 90U * 80 * 70);
+  for (std::size_t i = 0; i < volume->voxels.size(); ++i) {
+    ASSERT_EQ(volume->voxels[i], static_cast<int>(i) % 30'011) << i;
+  }
+}
+
+TEST_F(Nrrd, OfMoreVoxelsThanAreReadIsRefusedBeforeItTakesMemory) {
+  std::string many = raw_header();
+  many.replace(many.find("2 2 2"), 5, "1024 1024 1024");
+  write(many, "");
+  EXPECT_EQ(refusal(), "1073741824 voxels are too many; at most 536870912 are read");
+}
+
+TEST_F(Nrrd, ThatIsADeviceOrAPipeIsRefusedWithoutWaiting) {
+  EXPECT_EQ(read_nrrd("/dev/zero").error().text,
+            "'/dev/zero' cannot be read: it is a device or a pipe, not a file");
+  ASSERT_EQ(mkfifo(file_.c_str(), 0600), 0);
+  EXPECT_EQ(read_nrrd(file_).error().text,
+            "'" + file_.string() + "' cannot be read: it is a device or a pipe, not a file");
 }
 
 }  // namespace

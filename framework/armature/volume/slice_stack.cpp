@@ -24,7 +24,12 @@ std::optional<std::string> mixed_series(const std::vector<DicomSlice>& slices) {
   for (const DicomSlice& slice : slices) ++count[slice.series];
   if (count.size() == 1) return std::nullopt;
   std::string text = fmt::format("{} series are mixed:", count.size());
-  for (const auto& [series, files] : count) text += fmt::format(" {} ({} files)", series, files);
+  constexpr std::size_t kShown = 5;
+  std::size_t told = 0;
+  for (const auto& [series, files] : count) {
+    if (told++ == kShown) return text + fmt::format(" and {} more", count.size() - kShown);
+    text += fmt::format(" {} ({} files)", legible(series), files);
+  }
   return text;
 }
 
@@ -128,14 +133,17 @@ Expected<Volume> stacked(std::vector<DicomSlice> slices) {
     return refuse(std::move(*wrong));
   }
   constexpr double kLevel_deg = 0.05;
-  if (std::abs(first.gantry_tilt_deg) > kLevel_deg) {
+  if (!(std::abs(first.gantry_tilt_deg) <= kLevel_deg)) {
     return refuse(
         fmt::format("its gantry was tilted by {:g} degrees (gantry tilt)", first.gantry_tilt_deg));
   }
-  volume.geometry.origin = 1e-3 * first.position;
+  if (auto wrong = set_origin(1e-3 * first.position, volume.geometry)) {
+    return refuse(std::move(*wrong));
+  }
   volume.voxels.reserve(volume.geometry.count());
-  for (const DicomSlice& slice : slices) {
+  for (DicomSlice& slice : slices) {
     volume.voxels.insert(volume.voxels.end(), slice.hounsfield.begin(), slice.hounsfield.end());
+    slice.hounsfield = {};  // each is in memory once
   }
   return volume;
 }

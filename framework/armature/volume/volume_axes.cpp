@@ -42,4 +42,19 @@ std::optional<std::string> set_axes(const std::array<Eigen::Vector3d, 3>& steps,
   return std::nullopt;
 }
 
+std::optional<std::string> set_origin(const Eigen::Vector3d& origin, VolumeGeometry& geometry) {
+  constexpr double kFarthest_m = 100;
+  if (!(origin.cwiseAbs().maxCoeff() <= kFarthest_m)) {
+    return fmt::format("its first voxel is at ({:g}, {:g}, {:g}) mm; up to {:g} m are read",
+                       1e3 * origin.x(), 1e3 * origin.y(), 1e3 * origin.z(), kFarthest_m);
+  }
+  geometry.origin = origin;
+  return std::nullopt;
+}
+
+std::optional<std::string> too_many_voxels(std::size_t count) {
+  if (count <= kMaxVoxels) return std::nullopt;
+  return fmt::format("{} voxels are too many; at most {} are read", count, kMaxVoxels);
+}
+
 }  // namespace armature

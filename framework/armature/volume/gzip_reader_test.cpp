@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // What gzip compressed comes out again: 1. whatever the size of a piece, 2. no more than was asked
-// for, nor memory for more than there can be, 3. what is damaged or ends too early is refused.
-#include "armature/volume/inflated.hpp"
+// for, 3. what is damaged or ends too early is refused.
+#include "armature/volume/gzip_reader.hpp"
 
 #include <gtest/gtest.h>
 #include <zlib.h>
 
+#include <algorithm>
+#include <sstream>
 #include <string>
 
 namespace armature {
@@ -19,7 +21,7 @@ std::string thousand_bytes() {
 }
 
 std::string compressed(const std::string& bytes) {
-  std::string gzip(2000, '\0');
+  std::string gzip(2000 + bytes.size() / 100, '\0');
   z_stream stream{};
   deflateInit2(&stream, 6, Z_DEFLATED, MAX_WBITS + 16, 8, Z_DEFAULT_STRATEGY);
   stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(bytes.data()));
@@ -32,51 +34,67 @@ std::string compressed(const std::string& bytes) {
   return gzip;
 }
 
-std::string refusal_of(const std::string& gzip, std::size_t max_bytes, std::size_t piece) {
-  const auto bytes = inflated(gzip, max_bytes, piece);
-  return bytes ? "inflated" : bytes.error().text;
+/// All of it, in pieces of `piece` bytes, up to `max_bytes`.
+Expected<std::string> unpacked(const std::string& gzip, std::size_t max_bytes, std::size_t piece) {
+  std::istringstream in{gzip};
+  GzipReader reader{in};
+  std::string all, bytes(piece, '\0');
+  while (all.size() < max_bytes) {
+    const std::size_t asked = std::min(piece, max_bytes - all.size());
+    const auto count = reader.read({bytes.data(), asked});
+    if (!count) return tl::unexpected{count.error()};
+    all += bytes.substr(0, *count);
+    if (*count < asked) break;
+  }
+  return all;
 }
 
-TEST(Inflated, IsTheSameInPiecesOfAnySize) {
+std::string refusal_of(const std::string& gzip, std::size_t piece) {
+  const auto bytes = unpacked(gzip, 2000, piece);
+  return bytes ? "unpacked" : bytes.error().text;
+}
+
+TEST(GzipReader, GivesTheSameInPiecesOfAnySize) {
   const std::string bytes = thousand_bytes(), gzip = compressed(bytes);
   for (const std::size_t piece : {1u, 2u, 7u, 333u, 500u, 999u, 1000u, 1001u, 5000u}) {
-    const auto out = inflated(gzip, bytes.size(), piece);
+    const auto out = unpacked(gzip, 2000, piece);
     ASSERT_TRUE(out) << piece << ": " << out.error().text;
     EXPECT_EQ(*out, bytes) << piece;
   }
 }
 
-TEST(Inflated, GivesNoMoreThanWasAskedForAndNoMoreThanThereIs) {
+TEST(GzipReader, GivesNoMoreThanWasAskedForAndNothingBehindTheEnd) {
   const std::string bytes = thousand_bytes(), gzip = compressed(bytes);
   for (const std::size_t piece : {1u, 64u, 4096u}) {
-    EXPECT_EQ(inflated(gzip, 600, piece).value(), bytes.substr(0, 600)) << piece;
-    EXPECT_EQ(inflated(gzip, 4000, piece).value(), bytes) << piece;
-    EXPECT_EQ(inflated(gzip, 0, piece).value(), "") << piece;
+    EXPECT_EQ(unpacked(gzip, 600, piece).value(), bytes.substr(0, 600)) << piece;
+    EXPECT_EQ(unpacked(gzip, 4000, piece).value(), bytes) << piece;
   }
+  std::istringstream in{gzip + "and more"};
+  GzipReader reader{in};
+  std::string piece(1000, '\0');
+  EXPECT_EQ(reader.read(piece).value(), 1000U);
+  EXPECT_EQ(reader.read(piece).value(), 0U);
+  EXPECT_EQ(reader.read(piece).value(), 0U);
 }
 
-TEST(Inflated, TakesMemoryForWhatTheDataCanHoldAndNotForWhatIsAskedFor) {
-  const std::size_t more_than_any_memory = std::size_t{1} << 60;
-  const std::string bytes = thousand_bytes();
-  EXPECT_EQ(inflated(compressed(bytes), more_than_any_memory).value(), bytes);
-  const std::string zeros(1'000'000, '\0');  // nothing is compressed more
-  EXPECT_EQ(inflated(compressed(zeros), more_than_any_memory).value(), zeros);
-  EXPECT_EQ(inflated(compressed(zeros), zeros.size()).value(), zeros);
+TEST(GzipReader, ReadsAFileThatIsLongerThanWhatItHoldsOfIt) {
+  const std::string zeros(100'000'000, '\0');  // 97 kB: two pieces
+  EXPECT_EQ(unpacked(compressed(zeros), 2 * zeros.size(), 1U << 20U).value(), zeros);
 }
 
-TEST(Inflated, ThatEndsTooEarlyOrIsDamagedIsRefused) {
+TEST(GzipReader, RefusesWhatEndsTooEarlyOrIsDamaged) {
   const std::string bytes = thousand_bytes(), gzip = compressed(bytes);
   for (const std::size_t piece : {1u, 64u, 4096u}) {
     SCOPED_TRACE(piece);
-    const std::string cut = refusal_of(gzip.substr(0, gzip.size() / 2), 1000, piece);
+    const std::string cut = refusal_of(gzip.substr(0, gzip.size() / 2), piece);
     EXPECT_NE(cut.find(" bytes: is it truncated?"), std::string::npos) << cut;
-    EXPECT_EQ(refusal_of("", 1000, piece),
+    EXPECT_EQ(refusal_of("", piece),
               "its gzip data end within the stream, after 0 bytes: is it truncated?");
-    EXPECT_EQ(refusal_of("no gzip at all", 1000, piece),
+    EXPECT_EQ(refusal_of("no gzip at all", piece),
               "its gzip data are damaged after 0 bytes: incorrect header check");
     std::string other_sum = gzip;
     other_sum[gzip.size() - 6] ^= 1;
-    EXPECT_EQ(refusal_of(other_sum, 1000, piece),
+    EXPECT_EQ(refusal_of(other_sum, piece),
               "its gzip data are damaged after 1000 bytes: incorrect data check");
   }
 }

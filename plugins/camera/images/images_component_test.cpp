@@ -100,7 +100,8 @@ TEST_F(ImagesTest, APictureThatCannotBeReadEndsTheRunWithItsName) {
   EXPECT_EQ(
       images.figures().reason,
       files_.path("right/1.png") +
-          ": it is not a picture that can be read; bad_pictures: skip leaves such a picture out");
+          ": it is none of PNG, JPEG, PGM, PPM, BMP and TIFF; bad_pictures: skip leaves such a "
+          "picture out");
 }
 
 TEST_F(ImagesTest, AJpegThatIsCutOffEndsTheRunWithItsName) {
@@ -130,8 +131,8 @@ TEST_F(ImagesTest, PicturesThatCannotBeUsedAreLeftOutNamedAndCounted) {
   ASSERT_EQ(images.lines().size(), 4U);
   EXPECT_EQ(images.lines()[0],
             "left out: without a partner on the other side: " + files_.path("left/alone.png"));
-  EXPECT_EQ(images.lines()[1],
-            "left out: " + files_.path("left/1.png") + ": it is not a picture that can be read");
+  EXPECT_EQ(images.lines()[1], "left out: " + files_.path("left/1.png") +
+                                   ": it is none of PNG, JPEG, PGM, PPM, BMP and TIFF");
   EXPECT_EQ(
       images.lines()[2],
       "left out: the left picture stamped 0.200000 s has 9 x 6 pixels, the first one has 8 x 6");

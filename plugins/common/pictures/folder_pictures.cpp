@@ -9,19 +9,21 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
+#include "armature/config/problems.hpp"
 #include "armature/runtime/plugins/setup_error.hpp"
+#include "armature/values/regular_file.hpp"
 
 namespace armature::pictures {
 namespace {
 
 namespace fs = std::filesystem;
+using config::in_quotes;
 
 constexpr double kMaxTime_s = 9e9;  // 64 bits of nanoseconds have 9.2e9 s
 constexpr double kMaxSpan_s = 1e6;
@@ -164,8 +166,13 @@ void FolderPictures::find_pairs(const Options& options) {
 }
 
 void FolderPictures::read_times(const fs::path& file) {
-  std::ifstream stream{file};
-  if (!stream) throw SetupError(fmt::format("timestamps: '{}' cannot be opened", file.string()));
+  constexpr std::size_t kMaxBytes = std::size_t{64} << 20U;
+  auto text = bytes_of_regular(file, kMaxBytes);
+  if (!text) {
+    throw SetupError(
+        fmt::format("timestamps: '{}' cannot be read: {}", file.string(), text.error().text));
+  }
+  std::istringstream stream{std::move(*text)};
   std::map<std::string, double> times;
   std::string line;
   for (int number = 1; std::getline(stream, line); ++number) {
@@ -176,16 +183,17 @@ void FolderPictures::read_times(const fs::path& file) {
       throw SetupError(
           fmt::format("{}:{}: {}; a line is 'NAME SECONDS'", file.string(), number, what));
     };
-    if (!(words >> time) || words >> more) wrong(fmt::format("'{}' has not two words", line));
+    if (!(words >> time) || words >> more) wrong(in_quotes(line) + " has not two words");
     double at = 0;
     const auto [end, error] = std::from_chars(time.data(), time.data() + time.size(), at);
     if (error != std::errc{} || end != time.data() + time.size() || !std::isfinite(at)) {
-      wrong(fmt::format("'{}' is no time in seconds", time));
+      wrong(in_quotes(time) + " is no time in seconds");
     }
     if (std::abs(at) > kMaxTime_s) {
-      wrong(fmt::format("'{}' is beyond {:g} s, as nanoseconds would be", time, kMaxTime_s));
+      wrong(
+          fmt::format("{} is beyond {:g} s, as nanoseconds would be", in_quotes(time), kMaxTime_s));
     }
-    if (!times.emplace(name, at).second) wrong(fmt::format("'{}' has a time already", name));
+    if (!times.emplace(name, at).second) wrong(in_quotes(name) + " has a time already");
   }
   for (FilePair& pair : pairs_) {
     const auto found = times.find(pair.left.filename());

@@ -106,7 +106,8 @@ TEST_F(FolderPicturesTest, NamesTheLineOfAFileOfTimesThatIsWrong) {
   files_.write("right/a.png", 1);
   auto options = two_folders();
   options.timestamps = files_.path("times.txt");
-  EXPECT_EQ(refusal(options), "timestamps: '" + files_.path("times.txt") + "' cannot be opened");
+  EXPECT_EQ(refusal(options), "timestamps: '" + files_.path("times.txt") +
+                                  "' cannot be read: No such file or directory");
   for (const auto& [text, told] :
        {std::pair{"a.png soon\n", ":1: 'soon' is no time in seconds; a line is 'NAME SECONDS'"},
         {"\na.png nan\n", ":2: 'nan' is no time in seconds; a line is 'NAME SECONDS'"},
@@ -170,7 +171,7 @@ TEST_F(FolderPicturesTest, TellsAFileThatIsNoPictureWhenItsTurnComes) {
   const auto bad = pictures.next();
   ASSERT_FALSE(bad->picture);
   EXPECT_EQ(bad->picture.error().text,
-            files_.path("right/a.png") + ": it is not a picture that can be read");
+            files_.path("right/a.png") + ": it is none of PNG, JPEG, PGM, PPM, BMP and TIFF");
 }
 
 TEST_F(FolderPicturesTest, RefusesAPictureOfWhichTheRestIsMissingInEveryFormat) {
@@ -220,23 +221,60 @@ TEST_F(FolderPicturesTest, LinksThatLeadNowhereDoNotCount) {
   EXPECT_EQ(pictures.left_out(), 0U);
 }
 
-TEST_F(FolderPicturesTest, RefusesAPngWithTooManyPixelsBeforeItUnpacksIt) {
+TEST_F(FolderPicturesTest, RefusesAPictureWithTooManyPixelsBeforeItUnpacksItInEveryFormat) {
   // Nothing follows, so a decoder would say that it cannot be read.
-  const std::string_view png{"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x40\0\0\0\xff\xff", 24};
-  const auto picture =
-      decode_picture({reinterpret_cast<const std::uint8_t*>(png.data()), png.size()});
-  ASSERT_FALSE(picture);
-  EXPECT_EQ(picture.error().text, "it has 16384 x 65535 pixels; a side may have 16384");
+  using namespace std::string_view_literals;
+  for (const std::string_view beginning :
+       {"\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x75\x30\0\0\x75\x30"sv,
+        "BM\0\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x30\x75\0\0\x30\x75\0\0"sv,
+        "II*\0\x08\0\0\0\2\0\0\1\4\0\1\0\0\0\x30\x75\0\0\1\1\3\0\1\0\0\0\x30\x75\0\0"sv,
+        "MM\0*\0\0\0\x08\0\2\1\0\0\4\0\0\0\1\0\0\x75\x30\1\1\0\3\0\0\0\1\x75\x30\0\0"sv,
+        "P5 30000 30000 255\n"sv, "P6\n# of a camera\n30000 30000\n255\n"sv}) {
+    const auto picture =
+        decode_picture({reinterpret_cast<const std::uint8_t*>(beginning.data()), beginning.size()});
+    ASSERT_FALSE(picture);
+    EXPECT_EQ(picture.error().text, "it has 30000 x 30000 pixels; a side may have 16384")
+        << beginning.substr(0, 4);
+  }
 }
 
 TEST_F(FolderPicturesTest, RefusesAPictureWithTooManyPixelsByItsName) {
-  files_.write_text("left/a.pgm", "P5 40000 40000 255\n");
+  files_.write_text("left/a.pgm", "P5 16000 16000 255\n");
   const auto read = read_picture(files_.path("left/a.pgm"));
   ASSERT_FALSE(read);
-  EXPECT_EQ(read.error().text,
-            files_.path("left/a.pgm") +
-                ": it is not a picture that can be read, or has too many pixels; a side may have "
-                "16384");
+  EXPECT_EQ(read.error().text, files_.path("left/a.pgm") +
+                                   ": it has 16000 x 16000 pixels; a picture may have 100 million");
+}
+
+TEST_F(FolderPicturesTest, RefusesAFormatOfWhichItDoesNotKnowHowLargeItUnpacks) {
+  files_.write_text("left/a.png", "RIFF    WEBPVP8X");
+  EXPECT_EQ(read_picture(files_.path("left/a.png")).error().text,
+            files_.path("left/a.png") + ": it is none of PNG, JPEG, PGM, PPM, BMP and TIFF");
+}
+
+TEST_F(FolderPicturesTest, RefusesAFileOfTooManyBytesAndOneThatIsNoneWithoutReadingIt) {
+  files_.write("left/a.bmp", 1);
+  std::filesystem::resize_file(files_.path("left/a.bmp"), std::uintmax_t{20} << 30);  // a hole
+  EXPECT_EQ(read_picture(files_.path("left/a.bmp")).error().text,
+            files_.path("left/a.bmp") +
+                ": cannot be read: it has 21474836480 bytes; at most 420000000 are read");
+  EXPECT_EQ(read_picture("/dev/zero").error().text,
+            "/dev/zero: cannot be read: it is a device or a pipe, not a file");
+}
+
+TEST_F(FolderPicturesTest, QuotesTheBeginningOfAWrongLineOfTimesAndReadsNoEndlessOne) {
+  files_.write("left/a.png", 1);
+  files_.write("right/a.png", 1);
+  auto options = two_folders();
+  options.timestamps = files_.path("times.txt");
+  files_.write_text("times.txt", "\x1b[2J " + std::string(1000, 'x') + " y\n");
+  const std::string told = refusal(options);
+  EXPECT_LT(told.size(), 300U) << told;
+  EXPECT_EQ(told.find('\x1b'), std::string::npos) << told;
+  std::filesystem::resize_file(options.timestamps, std::uintmax_t{20} << 30);
+  EXPECT_EQ(refusal(options),
+            "timestamps: '" + files_.path("times.txt") +
+                "' cannot be read: it has 21474836480 bytes; at most 67108864 are read");
 }
 
 }  // namespace

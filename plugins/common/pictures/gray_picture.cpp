@@ -5,22 +5,19 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
-#include <optional>
 #include <span>
 #include <string_view>
 
+#include "armature/values/regular_file.hpp"
 #include "jpeg_decoder.hpp"
+#include "picture_size.hpp"
 
 namespace armature::pictures {
 namespace {
 
-constexpr int kMaxSide = 16384;  // [px]
+constexpr std::uint32_t kMaxSide = 16384;  // [px]
 
 struct Encoding {
   std::string_view name;
@@ -43,31 +40,14 @@ GrayPicture picture_of(const cv::Mat& gray) {
   return picture;
 }
 
-tl::unexpected<Reason> refuse_size(std::int64_t width, std::int64_t height) {
-  return refuse(fmt::format("it has {} x {} pixels; a side may have {}", width, height, kMaxSide));
-}
-
-/// Width and height of a PNG, as its beginning tells them; nothing of another file.
-std::optional<std::array<std::uint32_t, 2>> size_of_png(std::span<const std::uint8_t> bytes) {
-  constexpr std::string_view kSignature{"\x89PNG\r\n\x1a\n"};
-  constexpr std::size_t kWidthAt = 16, kEnd = 24;
-  if (bytes.size() < kEnd || std::memcmp(bytes.data(), kSignature.data(), kSignature.size()) != 0) {
-    return std::nullopt;
-  }
-  const auto number_at = [&](std::size_t at) {
-    std::uint32_t number = 0;
-    for (const std::uint8_t byte : bytes.subspan(at, sizeof number)) number = number << 8U | byte;
-    return number;
-  };
-  return std::array{number_at(kWidthAt), number_at(kWidthAt + sizeof(std::uint32_t))};
-}
-
 /// OpenCV fills the rows that a JPEG lacks with grey, and says nothing.
 Expected<GrayPicture> decode_jpeg(std::span<const std::uint8_t> bytes) {
   jpeg::JpegDecoder decoder;
   const auto size = decoder.size_of(bytes);
   if (!size) return tl::unexpected{size.error()};
-  if (std::max(size->width, size->height) > kMaxSide) return refuse_size(size->width, size->height);
+  if (const auto taken = check_size({size->width, size->height}); !taken) {
+    return tl::unexpected{taken.error()};
+  }
   GrayPicture picture{.width = size->width, .height = size->height};
   const auto decoded = decoder.decode_gray(bytes, size->width, size->height, picture.pixels);
   if (!decoded) return tl::unexpected{decoded.error()};
@@ -79,9 +59,10 @@ Expected<GrayPicture> decode_jpeg(std::span<const std::uint8_t> bytes) {
 Expected<GrayPicture> decode_picture(std::span<const std::uint8_t> bytes) {
   if (bytes.empty()) return refuse("it is empty");
   if (jpeg::is_jpeg(bytes)) return decode_jpeg(bytes);
-  // A megabyte of PNG would take gigabytes before its size is known.
-  const auto size = size_of_png(bytes);
-  if (size && std::ranges::max(*size) > kMaxSide) return refuse_size((*size)[0], (*size)[1]);
+  // A few kilobytes would take gigabytes before OpenCV knows their size.
+  const auto size = told_size(bytes);
+  if (!size) return tl::unexpected{size.error()};
+  if (const auto taken = check_size(*size); !taken) return tl::unexpected{taken.error()};
   cv::Mat gray;
   try {
     const cv::Mat file{1, static_cast<int>(bytes.size()), CV_8UC1,
@@ -89,12 +70,9 @@ Expected<GrayPicture> decode_picture(std::span<const std::uint8_t> bytes) {
     gray = cv::imdecode(file,
                         cv::IMREAD_GRAYSCALE | cv::IMREAD_ANYDEPTH | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {
-    return refuse(fmt::format(
-        "it is not a picture that can be read, or has too many pixels; a side may have {}",
-        kMaxSide));
+    gray.release();
   }
   if (gray.empty()) return refuse("it is not a picture that can be read");
-  if (std::max(gray.cols, gray.rows) > kMaxSide) return refuse_size(gray.cols, gray.rows);
   if (gray.depth() != CV_8U) {
     return refuse(fmt::format("it has {} bits a pixel; 8 are read", 8 * gray.elemSize1()));
   }
@@ -102,10 +80,10 @@ Expected<GrayPicture> decode_picture(std::span<const std::uint8_t> bytes) {
 }
 
 Expected<GrayPicture> read_picture(const std::filesystem::path& file) {
-  std::ifstream stream{file, std::ios::binary};
-  if (!stream) return refuse(file.string() + ": cannot be opened: " + std::strerror(errno));
-  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>{stream}, {}};
-  auto picture = decode_picture(bytes);
+  const auto bytes = bytes_of_regular(file, kMaxPictureBytes);
+  if (!bytes) return refuse(file.string() + ": cannot be read: " + bytes.error().text);
+  auto picture =
+      decode_picture({reinterpret_cast<const std::uint8_t*>(bytes->data()), bytes->size()});
   if (!picture) return refuse(file.string() + ": " + picture.error().text);
   return picture;
 }

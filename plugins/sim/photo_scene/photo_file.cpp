@@ -6,13 +6,14 @@
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <memory>
 #include <system_error>
 #include <vector>
 
+#include "armature/values/regular_file.hpp"
 #include "photo_decoder.hpp"
+#include "picture_size.hpp"
 
 namespace armature::sim::photo_scene {
 namespace {
@@ -68,10 +69,9 @@ Expected<scene::Photo> read_photo(const std::string& file, const Eigen::Vector2d
   if (std::filesystem::exists(file, unknown) && !std::filesystem::is_regular_file(file, unknown)) {
     return refuse(file + " is no file; a photo is a PNG or JPEG");
   }
-  std::ifstream stream{file, std::ios::binary};
-  if (!stream) return refuse("cannot open the photo " + file);
-  const std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>{stream}, {}};
-  auto image = decoded(without_colour_profile(bytes), file);
+  const auto bytes = bytes_of_regular(file, pictures::kMaxPictureBytes);
+  if (!bytes) return refuse("cannot open the photo " + file + ": " + bytes.error().text);
+  auto image = decoded(without_colour_profile({bytes->begin(), bytes->end()}), file);
   if (!image) return tl::unexpected{image.error()};
   return scene::Photo{.image = std::move(*image),
                       .left_eye = left_eye,

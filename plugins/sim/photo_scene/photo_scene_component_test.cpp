@@ -149,7 +149,8 @@ TEST(PhotoSceneComponent, DoesNotStartWithAFrameOrAPhotoThatIsNotThere) {
             "the rig 'small' is mounted on 'elbow', which is no frame of the robot 'dental_lamp'; "
             "known: tool");
   EXPECT_EQ(refusal(scene_with("photo: astronaut, astronaut_file: /no/such.png")),
-            "cannot open the photo /no/such.png; install the Debian package python3-imageio, or "
+            "cannot open the photo /no/such.png: No such file or directory; install the Debian "
+            "package python3-imageio, or "
             "set photo: generated");
 }
 

@@ -195,7 +195,7 @@ TEST(PhotoSceneFaults, PhotosAndPartsThatCannotBeAreRefusedWithTheWayOut) {
   EXPECT_EQ(refusal("photo: file"), "photo: file needs photo_file, the PNG or JPEG that it is");
   EXPECT_EQ(refusal("photo: file, photo_file: /no/such.png, photo_eyes_px: [1, 1, 9, 1], "
                     "photo_mouth_px: [5, 9]"),
-            "cannot open the photo /no/such.png");
+            "cannot open the photo /no/such.png: No such file or directory");
   EXPECT_THAT(refusal(with(kPortrait, "photo: file")),
               HasSubstr("the left eye is at column 0 and the right one at 0"));
   EXPECT_THAT(refusal(with(kPortrait,
@@ -242,10 +242,13 @@ TEST(PhotoSceneFaults, APhotoThatIsAFolderOrHasTooManyPixelsIsRefusedByItsName) 
   const std::string file = std::filesystem::temp_directory_path() /
                            ("armature-photo-" + std::to_string(getpid()) + ".pgm");
   EXPECT_EQ(refusal("/usr"), "/usr is no file; a photo is a PNG or JPEG");
-  std::ofstream{file} << "P5 40000 40000 255\n";
+  std::ofstream{file} << "P5 16000 16000 255\n";
   EXPECT_EQ(refusal(file), file +
-                               " is not an image that can be read: it has too many pixels, or "
-                               "a part of it is missing");
+                               " is not an image that can be read: it has 16000 x 16000 pixels; a "
+                               "picture may have 100 million");
+  std::filesystem::resize_file(file, std::uintmax_t{20} << 30);  // a hole: it takes no room
+  EXPECT_EQ(refusal(file), "cannot open the photo " + file +
+                               ": it has 21474836480 bytes; at most 420000000 are read");
   std::filesystem::remove(file);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <arpa/inet.h>
 
-#include <fstream>
+#include <algorithm>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -13,6 +13,7 @@
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/described_messages.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/regular_file.hpp"
 #include "armature/web/dds_topics.hpp"
 #include "armature/web/foxglove_bridge.hpp"
 #include "armature/web/monitor_server.hpp"
@@ -24,10 +25,10 @@ namespace {
 /// The token of a file: its first line.
 std::string token_of(const std::string& file, const Params& params) {
   if (file.empty()) return "";
-  std::ifstream stream{file};
-  std::string token;
-  std::getline(stream, token);
-  if (!stream || token.find_first_of(" \t\r") != std::string::npos || token.empty()) {
+  constexpr std::size_t kMaxBytes = 1U << 20U;
+  std::string token = bytes_of_regular(file, kMaxBytes).value_or("");
+  token.resize(std::min(token.find('\n'), token.size()));
+  if (token.find_first_of(" \t\r") != std::string::npos || token.empty()) {
     params.refuse({"token_file"}, "the first line of " + config::in_quotes(file) +
                                       " is no token: it cannot be read, is empty, or has blanks");
   }

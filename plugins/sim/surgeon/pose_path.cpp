@@ -5,17 +5,15 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 #include <utility>
 
+#include "armature/config/problems.hpp"
 #include "armature/messages/geometry.hpp"
+#include "armature/values/regular_file.hpp"
 #include "armature/values/without_blanks.hpp"
 
 namespace armature::sim::surgeon {
@@ -49,7 +47,8 @@ Expected<Numbers> numbers_of(const std::vector<std::string_view>& fields) {
     const char* const end = fields[i].data() + fields[i].size();
     const auto [rest, error] = std::from_chars(fields[i].data(), end, numbers[i]);
     if (error != std::errc{} || rest != end) {
-      return refuse(fmt::format("{} is '{}', not a number", kColumns[i], fields[i]));
+      return refuse(
+          fmt::format("{} is {}, not a number", kColumns[i], config::in_quotes(fields[i])));
     }
     if (!std::isfinite(numbers[i])) {
       return refuse(fmt::format("{} is {}, not a finite number", kColumns[i], fields[i]));
@@ -142,12 +141,10 @@ Expected<PosePath> read_pose_path(std::string_view text, std::string_view name) 
 }
 
 Expected<PosePath> load_pose_path(const std::filesystem::path& file) {
-  std::ifstream in{file};
-  std::string text{std::istreambuf_iterator<char>{in}, {}};
-  if (!in.is_open() || in.bad()) {
-    return refuse(fmt::format("cannot read '{}': {}", file.string(), std::strerror(errno)));
-  }
-  return read_pose_path(text, file.string());
+  constexpr std::size_t kMaxBytes = std::size_t{64} << 20U;
+  const auto text = bytes_of_regular(file, kMaxBytes);
+  if (!text) return refuse(fmt::format("cannot read '{}': {}", file.string(), text.error().text));
+  return read_pose_path(*text, file.string());
 }
 
 Expected<PosePath> pose_path_through(const msg::PoseArray& poses, double speed,

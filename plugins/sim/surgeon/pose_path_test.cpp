@@ -59,6 +59,9 @@ TEST(PosePath, WhatIsNoPathIsToldWithLineAndValue) {
   EXPECT_EQ(error_of(first), "knife.csv has 1 rows of poses; a path has two at least");
   EXPECT_EQ(load_pose_path("/nowhere/knife.csv").error().text,
             "cannot read '/nowhere/knife.csv': No such file or directory");
+  EXPECT_EQ(load_pose_path("/usr").error().text, "cannot read '/usr': it is a folder");
+  EXPECT_EQ(load_pose_path("/dev/zero").error().text,
+            "cannot read '/dev/zero': it is a device or a pipe, not a file");
 }
 
 msg::PoseArray poses_at(std::initializer_list<Vector3d> positions) {

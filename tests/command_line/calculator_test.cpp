@@ -267,6 +267,12 @@ TEST(Calculator, RefusesAnInputThatHasNoLines) {
   EXPECT_EQ(piped.err, "armature: the input cannot be read to its end\n");
 }
 
+TEST(Calculator, EndsAtALineThatHasNoEnd) {
+  const CommandResult zeros = run_command({armature(), "fk", "--robot", kLamp, "/dev/zero"});
+  EXPECT_EQ(zeros.exit_code, 1);
+  EXPECT_EQ(zeros.err, "armature: line 1 of the input is longer than 16777216 bytes\n");
+}
+
 TEST(IkCalculator, RefusesAQuaternionOrADirectionThatIsNoUnit) {
   const auto reason = [](const std::string& orientation) {
     return ik("{\"position_m\":[1.3,0.321,0.504]," + orientation + "}\n")[0]["reason"];

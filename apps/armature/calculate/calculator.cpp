@@ -47,14 +47,29 @@ class LineInput {
   std::istream& in_;
 };
 
+/// The next line, as std::getline; throws at one that has no end, which would take all memory.
+bool next_line(std::istream& in, std::string& line, std::uint64_t number) {
+  constexpr std::size_t kLongest = std::size_t{16} << 20U;
+  line.clear();
+  for (int c = in.get(); c != std::istream::traits_type::eof(); c = in.get()) {
+    if (c == '\n') return true;
+    if (line.size() == kLongest) {
+      throw std::runtime_error(
+          fmt::format("line {} of the input is longer than {} bytes", number, kLongest));
+    }
+    line += static_cast<char>(c);
+  }
+  return !line.empty();
+}
+
 /// One answer per line, whatever the line holds, each out before the next line is waited for. Empty
 /// lines are skipped.
 int answer_lines(std::istream& in, const auto& answer) {
   std::optional<Progress> progress;
   if (isatty(standard_output_descriptor()) == 0)
     progress.emplace("lines");  // else the answers show it
-  std::uint64_t answered = 0;
-  for (std::string line; std::getline(in, line);) {
+  std::uint64_t answered = 0, number = 0;
+  for (std::string line; next_line(in, line, ++number);) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
     const std::string text = answer(line) + '\n';
     if (std::fputs(text.c_str(), standard_output()) < 0 || std::fflush(standard_output()) != 0) {

@@ -16,13 +16,17 @@ namespace armature {
 Draft::Draft(std::filesystem::path named, std::string_view purpose, mode_t mode, Link link)
     : named_{std::move(named)} {
   constexpr int kTries = 100;
-  std::error_code none;
+  std::error_code none, error;
+  const auto refuse = [&](const std::string& why) {
+    throw std::runtime_error(fmt::format("cannot write '{}': {}", named_.string(), why));
+  };
   if (link == Link::keeps_pointing && std::filesystem::is_symlink(named_, none)) {
-    named_ = std::filesystem::weakly_canonical(named_);
+    auto pointed_at = std::filesystem::weakly_canonical(named_, error);
+    if (error) refuse(error.message());  // a link that leads to itself
+    named_ = std::move(pointed_at);
   }
   if (std::filesystem::exists(named_, none) && !std::filesystem::is_regular_file(named_, none)) {
-    throw std::runtime_error(
-        fmt::format("cannot write '{}': it is no regular file", named_.string()));
+    refuse("it is no regular file");
   }
   std::random_device lot;
   for (int i = 0; i < kTries; ++i) {
@@ -31,8 +35,7 @@ Draft::Draft(std::filesystem::path named, std::string_view purpose, mode_t mode,
     if (descriptor_ >= 0) return;
     if (errno != EEXIST) break;
   }
-  throw std::runtime_error(fmt::format("cannot write '{}': {}", named_.string(),
-                                       std::generic_category().message(errno)));
+  refuse(std::generic_category().message(errno));
 }
 
 Draft::~Draft() {

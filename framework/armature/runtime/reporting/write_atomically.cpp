@@ -24,9 +24,22 @@ bool write_all(int file, std::string_view text) {
   return ::fsync(file) == 0;
 }
 
+/// The folder would let it be replaced.
+bool is_write_protected(const std::filesystem::path& file) {
+  using std::filesystem::perms;
+  std::error_code none;
+  const auto status = std::filesystem::status(file, none);
+  constexpr perms kWrite = perms::owner_write | perms::group_write | perms::others_write;
+  return std::filesystem::is_regular_file(status) && (status.permissions() & kWrite) == perms::none;
+}
+
 }  // namespace
 
 void write_atomically(const std::filesystem::path& file, std::string_view text, FileUse use) {
+  if (use == FileUse::named_by_user && is_write_protected(file)) {
+    throw std::runtime_error{fmt::format(
+        "cannot write '{}': it is write-protected; chmod u+w lets it be replaced", file.string())};
+  }
   Draft draft{file, "draft", use == FileUse::named_by_user ? mode_t{0666} : mode_t{0600},
               use == FileUse::report ? Draft::Link::is_replaced : Draft::Link::keeps_pointing};
   if (!write_all(draft.descriptor(), text)) {

@@ -81,6 +81,23 @@ TEST_F(WriteAtomically, DoesNotFollowALink) {
   EXPECT_EQ(content_of(file_), "ours");
 }
 
+TEST_F(WriteAtomically, LeavesAFileThatTheUserHasWriteProtected) {
+  const std::string kept =
+      "cannot write '" + file_.string() + "': it is write-protected; chmod u+w lets it be replaced";
+  std::ofstream{file_} << "measured once";
+  fs::permissions(file_, fs::perms::owner_read);
+  EXPECT_EQ(test::refusal_of([&] { write_atomically(file_, "other", FileUse::named_by_user); }),
+            kept);
+  EXPECT_EQ(content_of(file_), "measured once");
+  EXPECT_EQ(std::distance(fs::directory_iterator{folder_.path()}, {}), 1) << "half a file is left";
+}
+
+TEST_F(WriteAtomically, TellsOfALinkThatLeadsToItself) {
+  fs::create_symlink(file_, file_);
+  EXPECT_EQ(test::refusal_of([&] { write_atomically(file_, "text", FileUse::named_by_user); }),
+            "cannot write '" + file_.string() + "': Too many levels of symbolic links");
+}
+
 TEST_F(WriteAtomically, IsNotHinderedByWhatARunBeforeAPowerCutHasLeft) {
   // In a container every run may have the same pid.
   const fs::path left = folder_ / ("report.json." + std::to_string(getpid()));

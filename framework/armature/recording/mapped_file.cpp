@@ -30,6 +30,8 @@ struct MappedPlace {
 };
 std::array<MappedPlace, 64> places;  // a file that finds none is not told by name
 
+struct sigaction before_this {};  // what became of SIGBUS
+
 void say(std::string_view text) {
   [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
 }
@@ -44,15 +46,19 @@ void tell_shortened_file(int signal, siginfo_t* info, void*) {
     say("' was made shorter while it was read, or cannot be read any more\n");
     _exit(1);
   }
-  std::signal(signal, SIG_DFL);  // the access is made again, and ends the program
+  // The access is made again, and is another one's.
+  sigaction(signal, &before_this, nullptr);
+  if (info->si_code <= 0) raise(signal);  // it was no access
 }
 
 void handle_shortened_files() {
-  struct sigaction before {};
-  if (sigaction(SIGBUS, nullptr, &before) != 0 || before.sa_handler != SIG_DFL) return;
+  struct sigaction now {};
+  if (sigaction(SIGBUS, nullptr, &now) != 0) return;
+  if ((now.sa_flags & SA_SIGINFO) != 0 && now.sa_sigaction == &tell_shortened_file) return;
+  before_this = now;
   struct sigaction handler {};
   handler.sa_sigaction = &tell_shortened_file;
-  handler.sa_flags = SA_SIGINFO;
+  handler.sa_flags = SA_SIGINFO | SA_ONSTACK;
   sigaction(SIGBUS, &handler, nullptr);
 }
 

@@ -8,8 +8,8 @@
 namespace armature {
 
 /// A file's bytes, read when they are looked at. A program that looks at what is no longer there,
-/// because somebody made the file shorter meanwhile, ends with the file's name and exit code 1;
-/// where it has a handler of its own for SIGBUS, that runs.
+/// because somebody made the file shorter meanwhile, ends with the file's name and exit code 1. A
+/// handler for SIGBUS that the program had before runs for all else.
 class MappedFile {
  public:
   /// Throws std::runtime_error for a file that cannot be read; what is no file is empty.

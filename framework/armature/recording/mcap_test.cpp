@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
@@ -37,6 +39,31 @@ TEST(McapDeathTest, AFileThatIsMadeShorterWhileItIsReadIsNamed) {
   };
   EXPECT_EXIT(read(), testing::ExitedWithCode(1),
               "shorter.mcap' was made shorter while it was read");
+}
+
+TEST(McapDeathTest, AFileThatIsMadeShorterIsNamedWhereAProgramHasAHandlerForCrashes) {
+  const RecordingFile file{"short"};
+  {
+    McapWriter writer{file.path(), {.compress = false, .chunk_bytes = 1024}};
+    write_all_but_the_end(writer, 1000);
+    writer.close();
+  }
+  const auto exit_of_crash = [](int) { _exit(3); };
+  const auto read = [&] {
+    std::signal(SIGBUS, exit_of_crash);
+    McapReader reader{file.path(), true};
+    fs::resize_file(file.path(), 10);
+    while (reader.next()) continue;
+    std::exit(2);
+  };
+  EXPECT_EXIT(read(), testing::ExitedWithCode(1), "short.mcap' was made shorter while it was read");
+  const auto crash = [&] {
+    std::signal(SIGBUS, exit_of_crash);
+    const McapReader reader{file.path(), true};
+    std::raise(SIGBUS);
+    std::exit(2);
+  };
+  EXPECT_EXIT(crash(), testing::ExitedWithCode(3), "") << "which is of no file that is read";
 }
 
 /// Two channels in small chunks, an attachment and metadata.

@@ -76,6 +76,15 @@ TEST_F(RunForAScript, AReportFolderThatCannotBeMadeIsToldBeforeTheRun) {
   EXPECT_EQ(result.err, "armature: " + reason + "\n");
 }
 
+TEST_F(RunForAScript, AFolderOfARecordingThatCannotBeMadeIsToldBeforeTheRun) {
+  const fs::path file = folder_ / "file";
+  std::ofstream{file} << "mine";
+  const auto result = run({"--set", "record.file=" + (file / "run.mcap").string()});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, testing::HasSubstr("armature: cannot make the folder '" + file.string() +
+                                             "': Not a directory\n"));
+}
+
 TEST_F(RunForAScript, AReportThatCannotBeWrittenFailsTheRunAndTheFiguresArePrinted) {
   fs::create_directories(folder_ / "report.json");
   const auto result = run({"--report", folder_.path()});

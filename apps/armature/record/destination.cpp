@@ -5,11 +5,18 @@
 #include <utility>
 
 namespace armature {
+namespace {
+
+/// Also a link that leads nowhere.
+bool is_there(const std::filesystem::path& file) {
+  std::error_code none;
+  return std::filesystem::exists(std::filesystem::symlink_status(file, none));
+}
+
+}  // namespace
 
 Destination::Destination(std::filesystem::path file, bool force)
-    : file_{std::move(file)},
-      was_there_{std::filesystem::exists(std::filesystem::symlink_status(file_))},
-      older_{hold_to_replace(file_, force)} {
+    : file_{std::move(file)}, was_there_{is_there(file_)}, older_{hold_to_replace(file_, force)} {
   if (older_) draft_.emplace(file_, "recording");
 }
 

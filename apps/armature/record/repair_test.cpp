@@ -131,6 +131,16 @@ TEST(ANameForARecording, ThatIsAPipeStaysOne) {
   EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
+TEST(ANameForARecording, ThatIsTooLongIsToldByWhatWritesIt) {
+  const std::string name = "/tmp/" + std::string(300, 'y');
+  const auto write = [&] {
+    const Destination destination{name, true};
+    const McapWriter writer{destination.path(), {}};
+  };
+  EXPECT_THAT(write, testing::ThrowsMessage<std::runtime_error>("cannot write '" + name +
+                                                                "': File name too long"));
+}
+
 TEST(ANameForARecording, ThatIsALinkKeepsPointing) {
   const RecordingFile part{"part"};
   write_part(part.path(), "main", 10);

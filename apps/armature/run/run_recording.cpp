@@ -7,6 +7,7 @@
 #include <exception>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -117,7 +118,12 @@ std::optional<std::filesystem::path> begin_recording(Deployment& deployment,
   if (!config.record) return std::nullopt;
   const auto name_at = [&config, process](Time time) {
     const std::filesystem::path file = config.record->file_of(process, named_after(config, time));
-    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+    std::error_code error;
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), error);
+    if (error) {
+      throw std::runtime_error(fmt::format("cannot make the folder '{}': {}",
+                                           file.parent_path().string(), error.message()));
+    }
     return file;
   };
   if (config.record->around_faults) {

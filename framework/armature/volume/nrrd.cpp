@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -140,11 +141,15 @@ Expected<Volume> read_nrrd(const fs::path& file) {
 }
 
 Expected<void> write_nrrd(const Volume& volume, const fs::path& file) {
+  const auto refused = [&] {
+    return refuse(fmt::format("'{}' cannot be written: {}", file.string(), std::strerror(errno)));
+  };
   std::ofstream out{file, std::ios::binary};
+  if (!out) return refused();
   out << nrrd_header_of(volume.geometry);
   out.write(reinterpret_cast<const char*>(volume.voxels.data()),
             static_cast<std::streamsize>(volume.voxels.size() * sizeof(std::int16_t)));
-  if (!out.flush()) return refuse(fmt::format("'{}' cannot be written", file.string()));
+  if (!out.flush()) return refused();
   return {};
 }
 

@@ -257,6 +257,16 @@ TEST_F(Nrrd, OfMoreVoxelsThanAreReadIsRefusedBeforeItTakesMemory) {
   EXPECT_EQ(refusal(), "1073741824 voxels are too many; at most 536870912 are read");
 }
 
+TEST_F(Nrrd, ThatCannotBeWrittenTellsWhy) {
+  const Volume volume{.geometry = {.size = {2, 2, 2}}, .voxels = std::vector<std::int16_t>(8)};
+  for (const auto& [file, why] :
+       {std::pair{"/nowhere/head.nrrd", "No such file or directory"},
+        std::pair{"/usr", "Is a directory"}, std::pair{"/dev/full", "No space left on device"}}) {
+    EXPECT_EQ(write_nrrd(volume, file).error().text,
+              "'" + std::string{file} + "' cannot be written: " + why);
+  }
+}
+
 TEST_F(Nrrd, ThatIsADeviceOrAPipeIsRefusedWithoutWaiting) {
   EXPECT_EQ(read_nrrd("/dev/zero").error().text,
             "'/dev/zero' cannot be read: it is a device or a pipe, not a file");

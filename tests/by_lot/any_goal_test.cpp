@@ -186,7 +186,7 @@ class BlendedWay {
       return std::hypot(miss.position_m / way_, miss.angle_rad / turn_);
     };
     constexpr double kWithin = 0.3;
-    constexpr int kParts = 60;
+    constexpr int kParts = 30;
     double from = std::max(0.0, at_ - kWithin), to = std::min(1.0, at_ + kWithin);
     const double part = (to - from) / kParts;
     double nearest = at_;
@@ -194,7 +194,7 @@ class BlendedWay {
       if (off(from + i * part) < off(nearest)) nearest = from + i * part;
     }
     from = std::max(0.0, nearest - part), to = std::min(1.0, nearest + part);
-    while (to - from > 1e-9) {
+    while (to - from > 1e-7) {
       const double third = (to - from) / 3;
       const bool nearer_to_from = off(from + third) < off(to - third);
       from += nearer_to_from ? 0 : third;
@@ -221,7 +221,11 @@ class BlendedWay {
     if (!direction) {
       turn = std::get<Eigen::Quaterniond>(pose.orientation);
     } else if (rotations_.empty()) {
-      turn = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitX(), direction->unit);
+      // How it is turned about its direction is told nowhere; rotvec_bspline depends on it.
+      Eigen::Matrix3d R;
+      R << direction->unit, direction->unit.unitOrthogonal(),
+          direction->unit.cross(direction->unit.unitOrthogonal());
+      turn = Eigen::Quaterniond{R};
     } else {
       const Vector3d before = rotations_.back() * Vector3d::UnitX();
       turn = Eigen::Quaterniond::FromTwoVectors(before, direction->unit) * rotations_.back();
@@ -284,6 +288,7 @@ struct AskedArm {
   };
   std::vector<Span> spans_of(const GoalChronicle& told) const;
   const ArmRow& reference_at(const GoalChronicle& told, double time_s) const;
+  double keeps_away_from_s(const GoalChronicle& told, const Span& span) const;
   double nearest_body(const JointVector& q, const GivenZone& zone, bool entered) const;
   Vector3d axis() const { return robot.pointing_axis().value_or(Vector3d::UnitX()); }
 
@@ -465,6 +470,7 @@ std::vector<AskedArm::Span> AskedArm::spans_of(const GoalChronicle& told) const 
 
 void AskedArm::expect_straight(const GoalChronicle& told) const {
   // max_path_deviation, which is looked at in three places between two samples.
+  constexpr double kEvery_s = 0.005;
   constexpr double kLeaves_m = 1.1 * 0.0005, kLeaves_rad = 1.1 * 0.25 * M_PI / 180;
   for (const Span& span : spans_of(told)) {
     const GivenGoal& goal = told.goals.at(span.id);
@@ -481,8 +487,10 @@ void AskedArm::expect_straight(const GoalChronicle& told) const {
     poses.insert(poses.end(), goal.poses.begin(), goal.poses.end());
     const double may = poses.size() == 2 ? 1 : 2;  // where it bends
     BlendedWay way{poses, *orientation_interpolator(interpolator)};
+    double next_s = span.from_s;
     for (const ArmRow& row : told.arm) {
-      if (row.time_s < span.from_s || row.time_s >= span.to_s) continue;
+      if (row.time_s < next_s || row.time_s >= span.to_s) continue;
+      next_s = row.time_s + kEvery_s;
       const Miss miss = way.miss_of(forward_kinematics(robot, row.q), axis());
       ASSERT_LE(miss.position_m, may * kLeaves_m)
           << row.time_s << " s, on the way of goal " << span.id;
@@ -520,12 +528,27 @@ double AskedArm::nearest_body(const JointVector& q, const GivenZone& zone, bool 
   return nearest;
 }
 
+/// The plan takes over when its budget is over, and the arm follows the reference. A stop that
+/// comes first, out of a motion that knew nothing of the zones, is not looked at.
+double AskedArm::keeps_away_from_s(const GoalChronicle& told, const Span& span) const {
+  const double begin_s = span.from_s + 0.01 + 3 * period_s;
+  if (reference_at(told, span.from_s).rests()) return begin_s;
+  constexpr double kSlow = 1e-3;  // [rad/s] or [m/s]: the rest may be between two periods
+  const ArmRow* rests = nullptr;
+  for (const ArmRow& row : told.reference) {
+    if (row.time_s < span.from_s || row.time_s >= span.to_s) continue;
+    const bool is_slow = row.v.isZero(kSlow);
+    if (!rests && is_slow) rests = &row;
+    if (rests && !is_slow) return std::max(begin_s, rests->time_s + 3 * period_s);
+  }
+  return begin_s;
+}
+
 void AskedArm::expect_zones(const GoalChronicle& told) const {
   constexpr double kKept_m =
       0.001 - 0.00006;  // min_link_clearance_mm, and what is between instants
   for (const Span& span : spans_of(told)) {
-    // The plan takes over when its budget is over, and the arm follows the reference.
-    const double from_s = span.from_s + 0.01 + 3 * period_s;
+    const double from_s = keeps_away_from_s(told, span);
     for (const GivenZone& zone : told.goals.at(span.id).zones) {
       for (const ArmRow& row : told.arm) {
         if (row.time_s < from_s || row.time_s >= span.to_s) continue;

@@ -101,7 +101,7 @@ class AnyGoal final : public Component {
     give_any();
     waits_ = !stopped_ && !happens(parameters_.haste);
     const double longest_s[] = {0, 0.003, 0.03, 0.3, 2};
-    due_ = now_ + seconds(waits_ ? 20 : longest_s[below(5)] * share());
+    due_ = now_ + seconds(waits_ ? 6 : longest_s[below(5)] * share());
     // A hand keeps the arm until something else is wanted, and a stopped arm refuses everything.
     if (in_hand_) due_ = std::min(due_, now_ + seconds(share()));
     if (stopped_) due_ = std::max(due_, now_ + seconds(0.3 * share()));
@@ -256,7 +256,7 @@ class AnyGoal final : public Component {
       if (happens(0.3)) goal.velocity = any_vector(0.1);
       return give(goal, what);
     }
-    if (happens(0.15)) goal.max_speed = 0.01 + 0.3 * share();
+    if (happens(0.15)) goal.max_speed = 0.03 + 0.3 * share();
     add_to(goal, q, pointing);
     give(goal, what);
   }

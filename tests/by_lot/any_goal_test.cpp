@@ -470,7 +470,7 @@ std::vector<AskedArm::Span> AskedArm::spans_of(const GoalChronicle& told) const 
 
 void AskedArm::expect_straight(const GoalChronicle& told) const {
   // max_path_deviation, which is looked at in three places between two samples.
-  constexpr double kEvery_s = 0.005;
+  constexpr double kEvery_s = 0.005, kStep_m = 0.002, kStep_rad = 0.5 * M_PI / 180;
   constexpr double kLeaves_m = 1.1 * 0.0005, kLeaves_rad = 1.1 * 0.25 * M_PI / 180;
   for (const Span& span : spans_of(told)) {
     const GivenGoal& goal = told.goals.at(span.id);
@@ -485,17 +485,18 @@ void AskedArm::expect_straight(const GoalChronicle& told) const {
     }
     std::vector<ToolPose> poses{start};
     poses.insert(poses.end(), goal.poses.begin(), goal.poses.end());
-    const double may = poses.size() == 2 ? 1 : 2;  // where it bends
+    // Between three samples a way with key poses bends by a step of path/orientations at most.
+    const bool bends = poses.size() > 2;
+    const double may_m = kLeaves_m + (bends ? kStep_m : 0);
+    const double may_rad = kLeaves_rad + (bends ? kStep_rad : 0);
     BlendedWay way{poses, *orientation_interpolator(interpolator)};
     double next_s = span.from_s;
     for (const ArmRow& row : told.arm) {
       if (row.time_s < next_s || row.time_s >= span.to_s) continue;
       next_s = row.time_s + kEvery_s;
       const Miss miss = way.miss_of(forward_kinematics(robot, row.q), axis());
-      ASSERT_LE(miss.position_m, may * kLeaves_m)
-          << row.time_s << " s, on the way of goal " << span.id;
-      ASSERT_LE(miss.angle_rad, may * kLeaves_rad)
-          << row.time_s << " s, on the way of goal " << span.id;
+      ASSERT_LE(miss.position_m, may_m) << row.time_s << " s, on the way of goal " << span.id;
+      ASSERT_LE(miss.angle_rad, may_rad) << row.time_s << " s, on the way of goal " << span.id;
     }
   }
 }

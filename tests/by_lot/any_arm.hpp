@@ -5,12 +5,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cstdint>
 #include <initializer_list>
 #include <kdl/chain.hpp>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "armature/values/chance.hpp"
 #include "armature/values/temporary_folder.hpp"
 
 namespace armature::test {
@@ -18,24 +19,16 @@ namespace armature::test {
 using Numbers = std::vector<double>;
 using Words = std::initializer_list<const char*>;
 
-/// Numbers that follow from a seed.
-class Lot {
+/// What is drawn of arms.
+class Lot : public Chance {
  public:
-  explicit Lot(int seed) : chance_(static_cast<std::mt19937_64::result_type>(seed)) {}
+  explicit Lot(int seed) : Chance(static_cast<std::uint64_t>(seed)) {}
 
-  double between(double from, double to) {
-    return from + (to - from) * static_cast<double>(chance_() >> 11) * 0x1p-53;
-  }
-  int below(int count) { return static_cast<int>(between(0, count)); }
-  bool happens(double probability) { return between(0, 1) < probability; }
   template <class T>
   T one_of(std::initializer_list<T> values) {
     return values.begin()[below(static_cast<int>(values.size()))];
   }
   Numbers three(double most);
-
- private:
-  std::mt19937_64 chance_;
 };
 
 /// A joint that moves by itself, [rad] or [m]. It reaches its speed in 0.25 s.

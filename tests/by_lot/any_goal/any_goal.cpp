@@ -17,7 +17,6 @@
 #include <filesystem>
 #include <fstream>
 #include <optional>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +32,7 @@
 #include "armature/runtime/component/component.hpp"
 #include "armature/runtime/component/setup.hpp"
 #include "armature/runtime/plugins/plugin.hpp"
+#include "armature/values/chance.hpp"
 #include "test_any_goal_parameters.hpp"
 #include "test_any_goal_ports.hpp"
 
@@ -110,8 +110,8 @@ class AnyGoal final : public Component {
   bool finished() const override { return finished_at_ && now_ > *finished_at_; }
 
  private:
-  double share() { return static_cast<double>(chance_() >> 11) * 0x1p-53; }
-  bool happens(double probability) { return share() < probability; }
+  double share() { return chance_.share(); }
+  bool happens(double probability) { return chance_.happens(probability); }
   std::size_t below(std::size_t count) {
     return static_cast<std::size_t>(share() * static_cast<double>(count));
   }
@@ -329,7 +329,7 @@ class AnyGoal final : public Component {
   Parameters parameters_;
   RobotModel robot_;
   Ports ports_;
-  std::mt19937_64 chance_;
+  Chance chance_;
   std::ofstream chronicle_;
   std::optional<Time> start_, finished_at_;
   Time now_, due_, rearm_at_, moved_;

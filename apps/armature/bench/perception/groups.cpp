@@ -154,7 +154,7 @@ constexpr std::array kGroups{
 
 std::uint64_t Draw::face(FaceWears what) {
   constexpr std::uint64_t kFaces = 6;
-  std::uint64_t left = (random_() >> 32) * kFaces >> 32;
+  std::uint64_t left = (bits() >> 32) * kFaces >> 32;
   for (std::uint64_t seed = 1;; ++seed) {
     const scene::FaceTraits traits = scene::traits_of(seed);
     const bool wears_it = traits.has_glasses == (what == FaceWears::glasses) &&

@@ -53,7 +53,8 @@ double SetPoint::elapsed(Time now) {
   const double dt = last_ ? to_seconds(now - *last_) : period_s_;
   if (dt <= 0) return 0;
   last_ = now;
-  before_s_ = std::exchange(step_s_, dt);
+  // A thread that was late for longer finds an arm that stands.
+  before_s_ = std::min(std::exchange(step_s_, dt), timeout_s_);
   excess_.reset();
   return dt;
 }
@@ -200,11 +201,13 @@ std::optional<LimitExcess> SetPoint::displaced(int joint, double gap, double win
   return sudden(joint, 2 * gap / window, window);
 }
 
-/// The step before had its mean velocity at its middle.
+/// The step before had its mean velocity at its middle, and at its end, too, where it was a late
+/// one.
 void SetPoint::stop(double dt) {
+  const double since_middle_s = 0.5 * std::min(before_s_, period_s_);
   for (int i = 0; i < model_.dof(); ++i) {
     const double a = model_.max_acceleration()[i];
-    const double begin = std::max(std::abs(executed_v_[i]) - 0.5 * a * before_s_, 0.0);
+    const double begin = std::max(std::abs(executed_v_[i]) - a * since_middle_s, 0.0);
     const double moves_s = std::min(dt, begin / a);
     const double way = (begin - 0.5 * a * moves_s) * moves_s;
     advance(i, std::copysign(way / dt, executed_v_[i]), dt);

@@ -276,6 +276,31 @@ TEST(SetPoint, NeverExceedsLimitsWhateverIsCommandedAndItsStepsAre) {
   }
 }
 
+TEST(SetPoint, BrakesFromItsSpeedThoughTheStepBeforeWasALateOne) {
+  const RobotModel model = one_joint(5);
+  SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};
+  const auto at = [](double t) { return Time{} + seconds(t); };
+  for (int k = 1; k <= 500; ++k) {
+    const double t = 0.001 * k;
+    arm.step(at(t), ServoCommand{at(t), value(t * t), value(2 * t)});
+  }
+  arm.step(at(0.55), ServoCommand{at(0.55), value(0.3025), value(1.1)});
+  const double v = arm.position()[0] - 0.25 > 0 ? (arm.position()[0] - 0.25) / 0.05 : 0;
+  arm.step(at(0.551), std::nullopt);
+  EXPECT_NEAR(arm.velocity()[0], v - 8 * 0.001, 1e-6);
+}
+
+TEST(SetPoint, AJumpBehindALongPauseOfItsOwnThreadIsOne) {
+  const RobotModel model = one_joint();
+  SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};
+  const auto at = [](double t) { return Time{} + seconds(t); };
+  arm.step(at(0.001), ServoCommand{at(0.001), value(0), value(0)});
+  arm.step(at(10), ServoCommand{at(10), value(0), value(0)});
+  arm.step(at(10.001), ServoCommand{at(10.001), value(0.002), value(2)});
+  ASSERT_TRUE(arm.excess());
+  EXPECT_LE(arm.velocity()[0], 8 * 0.051);
+}
+
 TEST_F(SetPointTest, RampsDownAndHoldsWhenThereIsNoCommandAnyMore) {
   const Quintic move = Quintic::between({0, 0, 0}, {0.8, 0, 0}, 1.2);
   for (int k = 1; k <= 400; ++k) {

@@ -143,7 +143,7 @@ Expected<Volume> stacked(std::vector<DicomSlice> slices) {
   volume.voxels.reserve(volume.geometry.count());
   for (DicomSlice& slice : slices) {
     volume.voxels.insert(volume.voxels.end(), slice.hounsfield.begin(), slice.hounsfield.end());
-    slice.hounsfield = {};  // each is in memory once
+    slice.hounsfield = std::vector<std::int16_t>{};  // each is in memory once
   }
   return volume;
 }

@@ -19,7 +19,7 @@ namespace armature::test {
 using Numbers = std::vector<double>;
 using Words = std::initializer_list<const char*>;
 
-/// What is drawn of arms.
+/// A generator of what differs between arms.
 class Lot : public Chance {
  public:
   explicit Lot(int seed) : Chance(static_cast<std::uint64_t>(seed)) {}

@@ -406,6 +406,9 @@ TEST(LeftPath, IsNothingWhereThePathItselfBends) {
   EXPECT_EQ(left_path(model, plan, {0.0005, 0.001}), std::nullopt);
   plan.path[0].samples[1].pose = {(pin_at(0).position + pin_at(0.2).position) / 2, Direction{}};
   EXPECT_NE(left_path(model, plan, {0.0005, 0.001}), std::nullopt);
+  plan.path[0].samples[2].pose.orientation = Eigen::Quaterniond::Identity();
+  EXPECT_EQ(left_path(model, plan, {0.0005, 0.001}),
+            "segment 1 of the path has directions and rotations");
 }
 
 /// A straight way to 50 mm beside the goal.

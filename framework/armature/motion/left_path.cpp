@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
 
 #include "armature/robot/kinematics/kinematics.hpp"
 #include "armature/values/angles.hpp"
@@ -31,14 +32,14 @@ Vector3d turn(const Orientation& from, const Orientation& to) {
   return turn.angle() * turn.axis();
 }
 
-/// How far `p` is from the straight line from 0 to `end`.
+/// The distance of `p` from the straight line from 0 to `end`.
 double aside(const Vector3d& p, const Vector3d& end) {
   const double length2 = end.squaredNorm();
   const double part = length2 > 0 ? std::clamp(p.dot(end) / length2, 0.0, 1.0) : 0;
   return (p - part * end).norm();
 }
 
-/// How far `pose` is from the straight way between two others.
+/// The distance of `pose` from the straight way between two others.
 PoseResidual aside(const ToolPose& from, const ToolPose& to, const ToolPose& pose) {
   return {aside(pose.position - from.position, to.position - from.position),
           aside(turn(from.orientation, pose.orientation), turn(from.orientation, to.orientation))};
@@ -57,6 +58,12 @@ PoseResidual allowed(const std::vector<PathSample>& samples, std::size_t i,
     bend = larger(bend, aside(samples[k - 1].pose, samples[k + 1].pose, samples[k].pose));
   }
   return {may_leave.position_m + bend.position_m, may_leave.angle_rad + bend.angle_rad};
+}
+
+/// Between a direction and a rotation there is no way.
+bool is_mixed(const std::vector<PathSample>& samples) {
+  const auto kind = [](const PathSample& sample) { return sample.pose.orientation.index(); };
+  return std::ranges::adjacent_find(samples, std::not_equal_to<>{}, kind) != samples.end();
 }
 
 }  // namespace
@@ -84,6 +91,9 @@ std::optional<std::string> left_path(const RobotModel& model, const Plan& plan,
     const std::vector<JointVector>& q = plan.joint_path[k].q;
     const bool is_line =
         plan.path[k].space == PathSegment::Space::cartesian && q.size() == samples.size();
+    if (is_line && is_mixed(samples)) {
+      return fmt::format("segment {} of the path has directions and rotations", k + 1);
+    }
     for (std::size_t i = 1; i < q.size(); ++i) {
       const std::size_t begin = knot;
       do {

@@ -30,7 +30,7 @@ std::uint32_t checksum_of(std::span<const std::byte> bytes) {
 const std::string& name_of(const McapSchema& schema) { return schema.name; }
 const std::string& name_of(const McapChannel& channel) { return channel.topic; }
 
-/// What differs beside the name.
+/// The difference beside the name.
 std::vector<std::string_view> differences(const McapSchema& a, const McapSchema& b) {
   std::vector<std::string_view> parts;
   if (a.encoding != b.encoding) parts.emplace_back("another encoding");

@@ -13,7 +13,7 @@ namespace armature::bench {
 /// Glasses or a beard of a drawn face, which lead landmark finders astray.
 enum class FaceWears { nothing, glasses, beard };
 
-/// What is drawn of a case.
+/// A generator of what differs between cases.
 class Draw : public Chance {
  public:
   using Chance::Chance;

@@ -12,7 +12,7 @@ namespace armature ARMATURE_EXPORT {
 
 /// [rad/s] or [m/s], and of accelerations: what is slower does not move.
 inline constexpr double kMinRate = 1e-6;
-/// How far a coupled joint moves with its leader, to either side. A screw of 0.1 mm a turn has
+/// The range of a coupled joint for one of its leader, to either side. A screw of 0.1 mm a turn has
 /// 62832 rad/m.
 inline constexpr double kMinRatio = 1e-6, kMaxRatio = 1e6;
 

@@ -52,7 +52,7 @@ class Setup {
   /// network. Nothing when the component is constructed and not run: by `armature check`, by a
   /// replay, on a test bench. What is only there for a run (a port) is left alone then.
   virtual std::optional<NetworkOptions> network() const = 0;
-  /// How long the end of a run waits for what moves to come to rest: `run: {stop_within_s}`.
+  /// The time that the end of a run gives to what moves to come to rest: `run: {stop_within_s}`.
   virtual Duration stop_within() const = 0;
   /// Whether a plugin sits in slot `slot_name`. Always, unless the slot is optional.
   virtual bool is_filled(std::string_view slot_name) const = 0;

@@ -39,8 +39,8 @@ TEST(GoalLinks, ALinkThatComesTooNearIsNamedWithTheZoneAndThePlace) {
       plan.error().reason,
       testing::MatchesRegex(
           "link 'carriage' comes nearer than 10 mm \\(min_link_clearance_mm\\) to 'vessel', "
-          "[0-9.]+ s after the start of the way, and the arm has no other branch from here "
-          "that keeps away: lead it to another start"));
+          "[0-9.]+ s after the start of the way, and no other branch of the arm leads from here "
+          "to the goal: lead it to another start"));
 }
 
 TEST(GoalLinks, AWayBesideTheZoneAndARobotWithoutBodiesGo) {

@@ -176,6 +176,10 @@ tl::expected<JointVector, PlanFailure> GoalPlanner::solve(const ToolPose& pose,
   return chosen->front();
 }
 
+bool GoalPlanner::is_bound_to_path(const MotionGoal& goal) const {
+  return options_.path_only || goal.stepwise || !goal.through.empty();
+}
+
 PlanResult GoalPlanner::plan(const MotionGoal& goal, const JointState& from, Time start) {
   if (auto end = solve(goal.pose, from.q); !end) return tl::unexpected{end.error()};
   const bool moving = !at_rest(from), stops_first = moving && begins_at_rest(goal);
@@ -185,7 +189,7 @@ PlanResult GoalPlanner::plan(const MotionGoal& goal, const JointState& from, Tim
   if (moving && !stops_first) {
     if (PlanResult stopped = after_stop(goal, from, start, false)) return stopped;
   }
-  if (options_.path_only || goal.stepwise) return first;
+  if (is_bound_to_path(goal)) return first;
   PlanResult straight =
       moving ? after_stop(goal, from, start, true) : attempt(goal, from, start, true);
   if (!straight) return first;
@@ -228,26 +232,23 @@ PlanResult GoalPlanner::attempt(const MotionGoal& goal, const JointState& from, 
   if (auto solved = solve_samples(plan.path, from.q); !solved) {
     return tl::unexpected{solved.error()};
   }
-  std::optional<std::string> first_obstacle;
+  std::optional<PlanFailure> first;
   for (;;) {
-    PlanResult timed = this->timed(plan.path, goal, from, start);
-    if (!timed) return first_obstacle ? fail("links", *first_obstacle) : std::move(timed);
-    const auto obstacle = this->obstacle(*timed, goal);
-    if (!obstacle) return timed;
-    if (!first_obstacle) first_obstacle = obstacle;
-    if (!without_branch_of(*timed)) return fail("links", *first_obstacle);
+    auto joint_path = this->joint_path(plan.path, from.q);
+    if (!joint_path) return tl::unexpected{first.value_or(joint_path.error())};
+    plan.joint_path = std::move(*joint_path);
+    const auto failure = time(plan, goal, from, start);
+    if (!failure) return plan;
+    if (!first) first = failure;
+    if (!without_branch_of(plan)) return tl::unexpected{*first};
   }
 }
 
-PlanResult GoalPlanner::timed(const Path& path, const MotionGoal& goal, const JointState& from,
-                              Time start) {
-  Plan plan{.path = path};
-  auto joint_path = this->joint_path(path, from.q);
-  if (!joint_path) return tl::unexpected{joint_path.error()};
-  plan.joint_path = std::move(*joint_path);
+std::optional<PlanFailure> GoalPlanner::time(Plan& plan, const MotionGoal& goal,
+                                             const JointState& from, Time start) const {
   const ReasonText missed = missed_by(model_, plan.joint_path.back().q.back(), goal.pose);
   if (!missed.empty()) {
-    return fail("path", fmt::format("the path's end misses the goal by {}", missed.view()));
+    return PlanFailure{"path", fmt::format("the path's end misses the goal by {}", missed.view())};
   }
   auto trajectory = guarded([&] {
     return stages_.trajectory->plan({.goal_id = goal.id,
@@ -258,18 +259,18 @@ PlanResult GoalPlanner::timed(const Path& path, const MotionGoal& goal, const Jo
                                      .max_acceleration = limits_.max_acceleration,
                                      .max_jerk = limits_.max_jerk});
   });
-  if (!trajectory) return fail("trajectory", trajectory.error().text);
+  if (!trajectory) return PlanFailure{"trajectory", trajectory.error().text};
   plan.trajectory = std::move(*trajectory);
   plan.trajectory.goal_id = goal.id;
   const TrajectoryView made = plan.trajectory.view();
   ReasonText wrong = trajectory_defect(made, model_, limits_, from, start);
   if (wrong.empty()) wrong = missed_goal(made, model_, plan.joint_path.back().q.back());
   if (!wrong.empty()) {
-    return fail("trajectory", with_way_out(std::string{wrong.view()}, plan, model_));
+    return PlanFailure{"trajectory", with_way_out(std::string{wrong.view()}, plan, model_)};
   }
-  if (at_rest(from)) {
+  if (is_bound_to_path(goal)) {
     if (auto left = left_path(model_, plan, options_.max_path_deviation)) {
-      return fail("trajectory", std::move(*left));
+      return PlanFailure{"trajectory", std::move(*left)};
     }
   }
   if (goal.max_speed > 0) {
@@ -277,19 +278,21 @@ PlanResult GoalPlanner::timed(const Path& path, const MotionGoal& goal, const Jo
     const double slower = kBetweenSamples * peak_speed(plan.trajectory, model_) / goal.max_speed;
     if (slower > 1) plan.trajectory = stretched(plan.trajectory, slower);
   }
-  return plan;
+  return obstacle(plan, goal);
 }
 
-std::optional<std::string> GoalPlanner::obstacle(const Plan& plan, const MotionGoal& goal) const {
+std::optional<PlanFailure> GoalPlanner::obstacle(const Plan& plan, const MotionGoal& goal) const {
   const auto found = first_violation(model_, plan.trajectory.view(), goal.forbidden,
                                      options_.min_link_clearance, begin_of_lines_s(plan));
   if (!found) return std::nullopt;
-  return fmt::format(
-      "link '{}' comes nearer than {:g} mm (min_link_clearance_mm) to '{}', {:.2f} s after the "
-      "start of the way, and the arm has no other branch from here that keeps away: lead it to "
-      "another start",
-      model_.capsules()[found->where.capsule].name, 1e3 * options_.min_link_clearance,
-      goal.forbidden[found->where.zone].name, found->t_s);
+  return PlanFailure{
+      "links",
+      fmt::format(
+          "link '{}' comes nearer than {:g} mm (min_link_clearance_mm) to '{}', {:.2f} s after the "
+          "start of the way, and no other branch of the arm leads from here to the goal: lead it "
+          "to another start",
+          model_.capsules()[found->where.capsule].name, 1e3 * options_.min_link_clearance,
+          goal.forbidden[found->where.zone].name, found->t_s)};
 }
 
 bool GoalPlanner::without_branch_of(const Plan& plan) {

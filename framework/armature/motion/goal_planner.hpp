@@ -44,7 +44,9 @@ class GoalPlanner {
   /// that is stepwise never goes straight: its stops are the path's. With key poses only the path
   /// plugin's path, from rest: anything else would miss them. With a greatest speed from rest, too;
   /// a stop that comes first counts for nothing there.
-  /// From rest the tool leaves no line of a path by more than `max_path_deviation`.
+  /// Where the goal is bound to the path, by path_only, by being stepwise or by key poses, the tool
+  /// leaves no line of it by more than `max_path_deviation`; where it is spliced while moving, from
+  /// the second sample on.
   /// With forbidden zones every link that the robot file states keeps `min_link_clearance` on the
   /// whole way, a stop before it left out; where it does not, the way begins in another branch, if
   /// there is one that does. The tool goes into a zone that says so (`tool_enters`) behind the
@@ -59,13 +61,16 @@ class GoalPlanner {
 
  private:
   PlanResult attempt(const MotionGoal& goal, const JointState& from, Time start, bool straight);
-  /// `path`, whose samples are solved, in the branch that is chosen for it.
-  PlanResult timed(const Path& path, const MotionGoal& goal, const JointState& from, Time start);
+  /// The path's own way or none: no other way is one to the goal.
+  bool is_bound_to_path(const MotionGoal& goal) const;
+  /// Gives `plan`, whose joint path is chosen, its trajectory, or tells why that cannot be.
+  std::optional<PlanFailure> time(Plan& plan, const MotionGoal& goal, const JointState& from,
+                                  Time start) const;
   /// Leaves the branch in which `plan` begins out of every waypoint; false when that leaves no
   /// choice, or the way begins on a line.
   bool without_branch_of(const Plan& plan);
   /// Which link comes too near to which zone, or nullopt.
-  std::optional<std::string> obstacle(const Plan& plan, const MotionGoal& goal) const;
+  std::optional<PlanFailure> obstacle(const Plan& plan, const MotionGoal& goal) const;
   PlanResult after_stop(const MotionGoal& goal, const JointState& from, Time start, bool straight);
   tl::expected<std::vector<JointSegment>, PlanFailure> joint_path(const Path& path,
                                                                   const JointVector& start);

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "armature/motion/goal_planner.hpp"
 
+#include <fmt/core.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "armature/motion/gantry_stages_test.hpp"
 #include "armature/motion/left_path.hpp"
@@ -382,11 +384,71 @@ TEST(GoalPlanner, RefusesALineThatTheToolLeavesBetweenItsSamples) {
     return plan ? "planned" : plan.error().stage + ": " + plan.error().reason;
   };
   EXPECT_EQ(reason({.path_only = true}),
-            "trajectory: between samples 1 and 2 of 2 of segment 1 the tool is 2.50 mm and 0.00 "
-            "degrees beside its path; 0.50 mm and 0.25 degrees are allowed there "
+            "trajectory: between samples 1 and 2 of 2 of segment 1 the tool is 2.498 mm and 0.000 "
+            "degrees beside its path; 0.500 mm and 0.250 degrees are allowed there "
             "(max_path_deviation_mm, max_path_deviation_deg)");
   EXPECT_EQ(reason({.path_only = true, .max_path_deviation = {0.0026, 0.001}}), "planned");
-  EXPECT_EQ(reason({}), "planned") << "straight in joint space";
+}
+
+TEST(GoalPlanner, TakesAWayBesideALineThatNobodyIsBoundToForNoWorseOne) {
+  const Gantry gantry;
+  const RobotModel model = crank();
+  const CrankIk ik;
+  const OneStep path;
+  const MotionLimits limits{JointVector::Constant(1, 1.0), JointVector::Constant(1, 2.5)};
+  GoalPlanner planner{model, {path, ik, gantry.select, gantry.trajectory}, limits};
+  const JointVector zero = JointVector::Zero(1);
+  const auto plan = planner.plan({.id = 1, .pose = pin_at(0.2)}, {zero, zero, zero}, kStart);
+  ASSERT_TRUE(plan) << plan.error().reason;
+  EXPECT_EQ(plan->straight_because, "");
+  EXPECT_FALSE(
+      planner.plan({.id = 2, .pose = pin_at(0.2), .stepwise = true}, {zero, zero, zero}, kStart))
+      << "bound to its path";
+}
+
+/// A whole turn back from the branch of the crank.
+class CrankIkOfTwoTurns final : public IkSolver {
+ public:
+  IkStatus solve(const IkGoal& goal, const JointVector& seed, IkBranches& out,
+                 IkState& state) const override {
+    const IkStatus status = CrankIk{}.solve(goal, seed, out, state);
+    out.branch[0].label = "forward";
+    IkBranch& back = out.add();
+    back = out.branch[0];
+    back.label = "back";
+    back.q[0] -= 2 * std::numbers::pi;
+    return status;
+  }
+};
+
+class NeverForward final : public TrajectoryPlanner {
+ public:
+  test::OneQuintic quintic;
+
+  Expected<Trajectory> plan(const TrajectoryRequest& request) const override {
+    if (request.segments.back().q.back()[0] > 0) return refuse("never forward");
+    return quintic.plan(request);
+  }
+};
+
+TEST(GoalPlanner, TriesTheNextBranchWhereAWayOfTheFirstCannotBe) {
+  const Gantry gantry;
+  RobotParts parts = crank().parts();
+  parts.joints[0].lower = -7;
+  const RobotModel model{parts};
+  const CrankIk one;
+  const CrankIkOfTwoTurns both;
+  const NeverForward trajectory;
+  const MotionLimits limits{JointVector::Constant(1, 1.0), JointVector::Constant(1, 2.5)};
+  const auto end = [&](const IkSolver& ik) {
+    GoalPlanner planner{model, {gantry.path, ik, gantry.select, trajectory}, limits};
+    const JointVector zero = JointVector::Zero(1);
+    const auto plan = planner.plan({.id = 1, .pose = pin_at(0.2)}, {zero, zero, zero}, kStart);
+    return plan ? fmt::format("{:.3f}", plan->joint_path.back().q.back()[0])
+                : plan.error().stage + ": " + plan.error().reason;
+  };
+  EXPECT_EQ(end(both), "-6.083");
+  EXPECT_EQ(end(one), "trajectory: never forward");
 }
 
 /// On an arc the tool is beside the lines between samples by what the arc bends.

@@ -85,6 +85,7 @@ std::optional<std::string> left_path(const RobotModel& model, const Plan& plan,
   constexpr double kSame = 1e-6;  // [rad] or [m]
   constexpr double kParts[] = {0.25, 0.5, 0.75};
   const TrajectoryView way = plan.trajectory.view();
+  const bool is_splice = !at_rest(state_at(way, way.knots.front()));
   std::size_t knot = 0;
   for (std::size_t k = 0; k < plan.path.size(); ++k) {
     const std::vector<PathSample>& samples = plan.path[k].samples;
@@ -99,7 +100,7 @@ std::optional<std::string> left_path(const RobotModel& model, const Plan& plan,
       do {
         if (++knot >= way.knots.size()) return std::nullopt;
       } while (!(state_at(way, way.knots[knot]).q - q[i]).isZero(kSame));
-      if (!is_line) continue;
+      if (!is_line || (is_splice && begin == 0)) continue;
       PoseResidual left;
       for (std::size_t piece = begin; piece < knot; ++piece) {
         for (const double part : kParts) {
@@ -111,8 +112,8 @@ std::optional<std::string> left_path(const RobotModel& model, const Plan& plan,
       const PoseResidual limit = allowed(samples, i, may_leave);
       if (left.position_m <= limit.position_m && left.angle_rad <= limit.angle_rad) continue;
       return fmt::format(
-          "between samples {} and {} of {} of segment {} the tool is {:.2f} mm and {:.2f} degrees "
-          "beside its path; {:.2f} mm and {:.2f} degrees are allowed there (max_path_deviation_mm, "
+          "between samples {} and {} of {} of segment {} the tool is {:.3f} mm and {:.3f} degrees "
+          "beside its path; {:.3f} mm and {:.3f} degrees are allowed there (max_path_deviation_mm, "
           "max_path_deviation_deg)",
           i, i + 1, samples.size(), k + 1, 1e3 * left.position_m, kDegreesPerRad * left.angle_rad,
           1e3 * limit.position_m, kDegreesPerRad * limit.angle_rad);

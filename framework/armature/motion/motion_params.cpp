@@ -118,13 +118,14 @@ void check_stop(const Params& params, const RobotModel& model, Duration within) 
     const char *const velocity = slides ? "max_velocity_m_s" : "max_velocity_rad_s",
                       *const acceleration =
                           slides ? "max_acceleration_m_s2" : "max_acceleration_rad_s2";
-    params.refuse({acceleration, velocity},
-                  fmt::format("joint {} of robot {} takes {:.3g} s to stop from {:.3g} {} with "
-                              "{:.3g} {}, and 'run: {{stop_within_s}}' is {:g}; raise that, or "
-                              "{}, or lower {}",
-                              joint.name, model.name(), speed / brakes, speed,
-                              slides ? "m/s" : "rad/s", brakes, slides ? "m/s2" : "rad/s2",
-                              to_seconds(within), acceleration, velocity));
+    const bool is_robots_own = brakes >= model.max_acceleration()[i];
+    params.refuse(
+        {acceleration, velocity},
+        fmt::format("joint {} of robot {} takes {:.3g} s to stop from {:.3g} {} with {:.3g} {}, "
+                    "and 'run: {{stop_within_s}}' is {:g}; raise that, or {}lower {}",
+                    joint.name, model.name(), speed / brakes, speed, slides ? "m/s" : "rad/s",
+                    brakes, slides ? "m/s2" : "rad/s2", to_seconds(within),
+                    is_robots_own ? "" : fmt::format("{}, or ", acceleration), velocity));
   }
 }
 

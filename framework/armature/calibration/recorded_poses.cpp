@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 
+#include "armature/config/key_rows.hpp"
 #include "armature/config/reader.hpp"
 #include "armature/config/source_text.hpp"
 #include "armature/config/yaml_parser.hpp"
@@ -19,6 +20,7 @@ namespace armature {
 namespace {
 
 using config::KeySpec;
+using namespace config::rows;
 using config::MapReader;
 using config::Node;
 using config::Origin;
@@ -87,8 +89,7 @@ std::vector<Node> records_of_lines(std::string_view text, const std::string& nam
 }
 
 std::vector<Node> records_of_document(const Node& document, Problems& problems) {
-  static const std::vector<KeySpec> kKeys{config::format_key("armature_poses"),
-                                          {.name = "poses", .type = KeySpec::Type::section}};
+  static const std::vector<KeySpec> kKeys{config::format_key("armature_poses"), section("poses")};
   MapReader map{document, "file of poses", kKeys, problems};
   map.integer("armature_poses");
   const Node* poses = map.node("poses");
@@ -150,11 +151,9 @@ std::optional<Isometry3d> flange_of_joints(const Node& joints, const RobotModel*
 }
 
 Record read_record(const Node& node, const RobotModel* robot, Problems& problems) {
-  constexpr auto kSection = KeySpec::Type::section;
-  static const std::vector<KeySpec> kKeys{
-      {.name = "joints", .type = kSection, .optional = true},
-      {.name = "base_T_flange", .type = kSection, .optional = true},
-      {.name = "tracker_T_body", .type = kSection, .optional = true}};
+  static const std::vector<KeySpec> kKeys{section("joints").optional(),
+                                          section("base_T_flange").optional(),
+                                          section("tracker_T_body").optional()};
   MapReader map{node, "pose", kKeys, problems};
   const Node* joints = map.node("joints");
   const Node* flange = map.node("base_T_flange");

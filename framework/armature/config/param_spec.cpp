@@ -5,6 +5,7 @@
 #include <array>
 #include <utility>
 
+#include "armature/config/key_rows.hpp"
 #include "armature/config/params.hpp"
 #include "armature/config/reader.hpp"
 #include "armature/config/unit_suffix.hpp"
@@ -29,25 +30,19 @@ bool is_name(std::string_view name) {
 
 /// What a plugin.yaml says of a parameter.
 const std::vector<config::KeySpec>& keys_of_a_parameter() {
-  const auto text = [](const char* name, const char* doc) {
-    return config::KeySpec{
-        .name = name, .type = Type::text, .doc = doc, .fallback = config::default_value("")};
-  };
+  using namespace config::rows;
   static const std::vector<config::KeySpec> kKeys{
-      {.name = "type",
-       .type = Type::choice,
-       .doc = "What it is.",
-       .choices = {kTypeNames.begin(), kTypeNames.end()}},
-      text("doc", "What it does."),
-      {.name = "default", .type = Type::section, .doc = "Without: required.", .optional = true},
-      {.name = "min", .doc = "Of every number, inclusive.", .optional = true},
-      {.name = "max", .doc = "Of every number, inclusive.", .optional = true},
-      {.name = "choices", .type = Type::texts, .doc = "Of a choice.", .optional = true},
-      {.name = "count", .type = Type::integer, .doc = "Of numbers.", .min = 1, .optional = true},
-      text("same_as", "The plugin whose parameter of this name says the same."),
-      text("at_most", "The parameter that it is not above."),
-      text("below", "The parameter that it is below."),
-      text("else", "What would be wrong if it were not.")};
+      choice("type", "What it is.").choices({kTypeNames.begin(), kTypeNames.end()}),
+      text("doc", "What it does.").fallback(""),
+      section("default", "Without: required.").optional(),
+      number("min", "Of every number, inclusive.").optional(),
+      number("max", "Of every number, inclusive.").optional(),
+      texts("choices", "Of a choice.").optional(),
+      integer("count", "Of numbers.").min(1).optional(),
+      text("same_as", "The plugin whose parameter of this name says the same.").fallback(""),
+      text("at_most", "The parameter that it is not above.").fallback(""),
+      text("below", "The parameter that it is below.").fallback(""),
+      text("else", "What would be wrong if it were not.").fallback("")};
   return kKeys;
 }
 

@@ -24,9 +24,8 @@ std::optional<std::string> as_text(const Node& node, Problems& problems);
 /// `problems`; a missing or wrong value reads as its default, 0 or "", so that reading can go on
 /// and find the next problem.
 ///
-///     const std::vector<KeySpec> kKeys{
-///         {.name = "name", .type = Type::text, .doc = "Of the joint."},
-///         {.name = "d_m", .doc = "Offset.", .fallback = default_value("0"), .also = "d_mm"}};
+///     const std::vector<KeySpec> kKeys{text("name", "Of the joint."),  // key_rows.hpp
+///                                      number("d_m", "Offset.").fallback("0").also("d_mm")};
 ///     MapReader map{node, "joint", kKeys, problems};
 ///     joint.name = map.text("name");
 ///     joint.d = map.number("d_m");  // in metres, also when the file says d_mm

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/config/document.hpp"
+#include "armature/config/key_rows.hpp"
 #include "armature/config/source_text.hpp"
 #include "armature/config/yaml_parser.hpp"
 #include "armature/robot/files/written_pose.hpp"
@@ -21,13 +22,10 @@ using config::Problems;
 
 std::optional<CalibratedFrame> read_transform(const Node& node, const std::string& name,
                                               Problems& problems) {
-  using config::KeySpec;
-  static const std::vector<KeySpec> kKeys{
-      {.name = "translation_m",
-       .type = KeySpec::Type::numbers,
-       .count = 3,
-       .also = "translation_mm"},
-      {.name = "quaternion_xyzw", .type = KeySpec::Type::numbers, .count = 4, .optional = true}};
+  using namespace config::rows;
+  static const std::vector<config::KeySpec> kKeys{
+      numbers("translation_m").count(3).also("translation_mm"),
+      numbers("quaternion_xyzw").count(4).optional()};
   MapReader map{node, name, kKeys, problems};
   const auto translation = read_vector(map, "translation_m");
   const bool is_turned = map.node("quaternion_xyzw") != nullptr;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "armature/config/document.hpp"
+#include "armature/config/key_rows.hpp"
 #include "armature/config/reader.hpp"
 #include "armature/robot/files/written_pose.hpp"
 
@@ -17,7 +18,7 @@ using config::MapReader;
 using config::Node;
 using config::Problems;
 using Eigen::Vector3d;
-using Type = KeySpec::Type;
+using namespace config::rows;
 
 constexpr double kSquareWithin = 1e-6;  // cosine between forward and right
 
@@ -75,52 +76,27 @@ void read_mount(const Node& node, StereoRig& rig, Problems& problems) {
 const std::vector<KeySpec>& rig_keys() {
   static const std::vector<KeySpec> kKeys{
       config::format_key("armature_rig"),
-      {.name = "name", .type = Type::text, .doc = "The rig's name."},
-      {.name = "resolution",
-       .type = Type::numbers,
-       .doc = "[width, height] in pixels.",
-       .min = 1,
-       .max = 16384,
-       .count = 2},
-      {.name = "fov_deg",
-       .doc = "The horizontal field of view.",
-       .max = 177,
-       .optional = true,
-       .above = 0},
-      {.name = "focal_px",
-       .doc = "The focal length, instead of the field of view.",
-       .optional = true,
-       .above = 0},
-      {.name = "principal_point_px",
-       .type = Type::numbers,
-       .doc = "[x, y]; without: the middle of the image.",
-       .count = 2,
-       .optional = true},
-      {.name = "baseline_mm",
-       .doc = "From the left camera to the right one.",
-       .above = 0,
-       .also = "baseline_m"},
-      {.name = "mount", .type = Type::section, .doc = "Where the rig hangs on the arm."}};
+      text("name", "The rig's name."),
+      numbers("resolution", "[width, height] in pixels.").count(2).range(1, 16384),
+      number("fov_deg", "The horizontal field of view.").max(177).above(0).optional(),
+      number("focal_px", "The focal length, instead of the field of view.").above(0).optional(),
+      numbers("principal_point_px", "[x, y]; without: the middle of the image.")
+          .count(2)
+          .optional(),
+      number("baseline_mm", "From the left camera to the right one.").above(0).also("baseline_m"),
+      section("mount", "Where the rig hangs on the arm.")};
   return kKeys;
 }
 
 const std::vector<KeySpec>& mount_keys() {
   static const std::vector<KeySpec> kKeys{
-      {.name = "frame", .type = Type::text, .doc = "A frame of the robot."},
-      {.name = "center_mm",
-       .type = Type::numbers,
-       .doc = "The middle between the cameras, in that frame.",
-       .count = 3,
-       .optional = true,
-       .also = "center_m"},
-      {.name = "forward",
-       .type = Type::numbers,
-       .doc = "Where the cameras look, in that frame.",
-       .count = 3},
-      {.name = "right",
-       .type = Type::numbers,
-       .doc = "From the left camera to the right one, square to 'forward'.",
-       .count = 3}};
+      text("frame", "A frame of the robot."),
+      numbers("center_mm", "The middle between the cameras, in that frame.")
+          .count(3)
+          .also("center_m")
+          .optional(),
+      numbers("forward", "Where the cameras look, in that frame.").count(3),
+      numbers("right", "From the left camera to the right one, square to 'forward'.").count(3)};
   return kKeys;
 }
 

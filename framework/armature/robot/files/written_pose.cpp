@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-namespace armature {
+#include "armature/config/key_rows.hpp"
 
-using config::KeySpec;
+namespace armature {
 
 std::optional<Eigen::Vector3d> read_vector(config::MapReader& map, std::string_view key) {
   const auto numbers = map.optional_numbers(key);
@@ -38,9 +38,9 @@ std::optional<Eigen::Quaterniond> read_quaternion(config::MapReader& map, std::s
 
 std::optional<Eigen::Isometry3d> read_pose(const config::Node& node, std::string_view what,
                                            config::Problems& problems) {
-  static const std::vector<KeySpec> kKeys{
-      {.name = "position_m", .type = KeySpec::Type::numbers, .count = 3, .also = "position_mm"},
-      {.name = "quaternion_xyzw", .type = KeySpec::Type::numbers, .count = 4}};
+  using namespace config::rows;
+  static const std::vector<config::KeySpec> kKeys{
+      numbers("position_m").count(3).also("position_mm"), numbers("quaternion_xyzw").count(4)};
   config::MapReader map{node, std::string{what}, kKeys, problems};
   const auto position = read_vector(map, "position_m");
   const auto rotation = read_quaternion(map, "quaternion_xyzw");

@@ -137,21 +137,22 @@ std::vector<Eigen::Vector2d> corners_of(const chessboard::BoardShape& shape, dou
   return corners;
 }
 
-/// Throws where one file would be written over another.
-void refuse_equal_names(const Json& options) {
+/// Throws where one file would be written over another, or over a write-protected one.
+void check_outputs(const Json& options) {
   std::set<std::filesystem::path> files;
   for (const char* of : {"output", "rig", "coverage"}) {
     const std::string name = options[of];
-    if (name.empty() ||
-        files.insert(std::filesystem::weakly_canonical(std::filesystem::absolute(name))).second) {
-      continue;
+    if (name.empty()) continue;
+    const auto file = std::filesystem::weakly_canonical(std::filesystem::absolute(name));
+    if (!files.insert(file).second) {
+      throw SetupError(fmt::format("two of -o, --rig and --coverage name '{}'", name));
     }
-    throw SetupError(fmt::format("two of -o, --rig and --coverage name '{}'", name));
+    refuse_write_protected(name);
   }
 }
 
 int calibrate(const Json& options) {
-  refuse_equal_names(options);
+  check_outputs(options);
   const chessboard::BoardShape shape{.columns = options["board"][0], .rows = options["board"][1]};
   const double square_m = 1e-3 * options["square_mm"].get<double>();
   const std::string output = options["output"], rig = options["rig"], cover = options["coverage"];

@@ -139,6 +139,16 @@ TEST(CalibrateStereo, WritesNoFileOverAnotherOneOfItsOwn) {
   }
 }
 
+TEST(CalibrateStereo, NamesAWriteProtectedOutputBeforeItReadsAPicture) {
+  const DrawnBoards boards{0};
+  const fs::path rig = boards.path("rig.yaml");
+  std::ofstream{rig} << "mount: {frame: tool}\n";
+  fs::permissions(rig, fs::perms::owner_read);
+  const CommandResult result = calibrate(boards, {"--board", "9", "6", "--rig", rig});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_THAT(result.err, HasSubstr("rig.yaml': it is write-protected"));
+}
+
 TEST(CalibrateStereo, NamesPicturesWithoutTheBoardAndRefusesTooFew) {
   const DrawnBoards boards{1};
   const CommandResult result = calibrate(boards, {"--board", "8", "5"});

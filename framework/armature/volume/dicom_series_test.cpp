@@ -6,7 +6,7 @@
 #include "dcmtk/dcmdata/dctk.h"
 //
 #include <fmt/format.h>
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
 #include <filesystem>
@@ -231,6 +231,10 @@ TEST_F(DicomSeries, OfATiltedGantryIsRefused) {
   corrected.gantry_tilt = "13.5";
   write_series(4, corrected);
   EXPECT_EQ(refusal(), "': its gantry was tilted by 13.5 degrees (gantry tilt)");
+  corrected.gantry_tilt = "0,5";
+  write_series(4, corrected);
+  EXPECT_THAT(refusal(),
+              testing::HasSubstr("its Gantry/Detector Tilt is '0,5', which is no number"));
 }
 
 TEST_F(DicomSeries, WithMissingSlicesIsRefused) {

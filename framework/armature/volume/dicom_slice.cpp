@@ -14,6 +14,7 @@
 #include <system_error>
 #include <utility>
 
+#include "armature/values/utf8.hpp"
 #include "armature/volume/dicom_slice.hpp"
 
 namespace armature {
@@ -36,13 +37,15 @@ class Tags {
     if (data_.findAndGetUint16(tag, value).bad()) miss(name);
     return value;
   }
-  /// Read here: DCMTK takes "1,5" for 1.
   double number(const DcmTagKey& tag, unsigned long at, const char* name) {
+    const auto value = optional_number(tag, at, name);
+    if (!value) miss(name);
+    return value.value_or(0);
+  }
+  /// Read here: DCMTK takes "1,5" for 1.
+  std::optional<double> optional_number(const DcmTagKey& tag, unsigned long at, const char* name) {
     OFString written;
-    if (data_.findAndGetOFString(tag, written, at).bad() || written.empty()) {
-      miss(name);
-      return 0;
-    }
+    if (data_.findAndGetOFString(tag, written, at).bad() || written.empty()) return std::nullopt;
     const std::string text = legible(written.c_str());
     const std::string_view digits = std::string_view{text}.substr(text.starts_with('+') ? 1 : 0);
     double value = 0;
@@ -51,10 +54,6 @@ class Tags {
       tell(fmt::format("its {} is '{}', which is no number", name, text));
     }
     return value;
-  }
-  std::optional<double> optional_number(const DcmTagKey& tag) {
-    Float64 value = 0;
-    return data_.findAndGetFloat64(tag, value).good() ? std::optional{value} : std::nullopt;
   }
   Vector3d vector(const DcmTagKey& tag, unsigned long at, const char* name) {
     return {number(tag, at, name), number(tag, at + 1, name), number(tag, at + 2, name)};
@@ -162,6 +161,8 @@ Expected<DicomSlice> slice_of(DcmDataset& data) {
   slice.along_column = tags.vector(DCM_ImageOrientationPatient, 3, "Image Orientation (Patient)");
   slice.row_step = tags.number(DCM_PixelSpacing, 0, "Pixel Spacing");
   slice.column_step = tags.number(DCM_PixelSpacing, 1, "Pixel Spacing");
+  slice.gantry_tilt_deg =
+      tags.optional_number(DCM_GantryDetectorTilt, 0, "Gantry/Detector Tilt").value_or(0);
   const auto format = pixel_format_of(tags);
   if (!format) return tl::unexpected{format.error()};
   if (auto wrong = several_planes(data)) return refuse(std::move(*wrong));
@@ -179,7 +180,6 @@ Expected<DicomSlice> slice_of(DcmDataset& data) {
     }
     axis->normalize();
   }
-  slice.gantry_tilt_deg = tags.optional_number(DCM_GantryDetectorTilt).value_or(0);
   Sint32 slices = 0;
   if (data.findAndGetSint32(DCM_ImagesInAcquisition, slices).good()) slice.of_acquisition = slices;
   if (auto read = read_pixels(data, *format, slice); !read) {
@@ -191,8 +191,7 @@ Expected<DicomSlice> slice_of(DcmDataset& data) {
 }  // namespace
 
 std::string legible(std::string text) {
-  constexpr std::size_t kLongest = 64;  // of most texts of DICOM
-  if (text.size() > kLongest) text = text.substr(0, kLongest) + "...";
+  text = in_part(text);
   std::ranges::replace_if(
       text, [](unsigned char c) { return c < ' ' || c == 0x7F; }, '?');
   return text;

@@ -27,7 +27,7 @@ struct DicomSlice {
   Eigen::Vector3d normal() const;
 };
 
-/// What a file says, for a message: at most 64 characters, without control characters.
+/// A text of a file, for a message: in part, without control characters.
 std::string legible(std::string text);
 
 /// Whether a file begins as a DICOM file does, and is no DICOMDIR.

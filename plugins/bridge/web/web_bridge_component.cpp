@@ -26,11 +26,15 @@ namespace {
 std::string token_of(const std::string& file, const Params& params) {
   if (file.empty()) return "";
   constexpr std::size_t kMaxBytes = 1U << 20U;
-  std::string token = bytes_of_regular(file, kMaxBytes).value_or("");
-  token.resize(std::min(token.find('\n'), token.size()));
+  const auto bytes = bytes_of_regular(file, kMaxBytes);
+  if (!bytes) {
+    params.refuse({"token_file"}, config::in_quotes(file) + ": " + bytes.error().text);
+    return "";
+  }
+  std::string token = bytes->substr(0, bytes->find('\n'));
   if (token.find_first_of(" \t\r") != std::string::npos || token.empty()) {
     params.refuse({"token_file"}, "the first line of " + config::in_quotes(file) +
-                                      " is no token: it cannot be read, is empty, or has blanks");
+                                      " is no token: it is empty, or has blanks");
   }
   return token;
 }

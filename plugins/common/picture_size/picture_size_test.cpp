@@ -34,6 +34,7 @@ constexpr Beginning kBeginnings[] = {
      "MM\0*\0\0\0\x08\0\2\1\0\0\4\0\0\0\1\0\0\1\x2c\1\1\0\3\0\0\0\1\0\x14\0\0"sv},
     {"PGM", "P5\n300 20\n"sv},
     {"PPM", "P6 # of a camera\n# 640 480\n300\n20 "sv},
+    {"PPM with lines of an old Macintosh", "P6\r# 640 480\r300 20\r255\r"sv},
 };
 
 TEST(ToldSize, IsThatOfTheBeginningInEveryFormat) {
@@ -48,7 +49,8 @@ TEST(ToldSize, IsThatOfTheBeginningInEveryFormat) {
 
 TEST(ToldSize, OfABeginningThatIsCutIsNeverAnotherOne) {
   for (const auto& [format, bytes] : kBeginnings) {
-    if (format == "PGM" || format == "PPM") continue;  // their numbers end where they are cut
+    if (format.starts_with("PGM") || format.starts_with("PPM"))
+      continue;  // their numbers end where they are cut
     for (std::size_t count = 0; count < bytes.size() - 4; ++count) {
       EXPECT_FALSE(told_size(as_bytes(bytes.substr(0, count)))) << format << ", " << count;
     }

@@ -35,11 +35,14 @@ bool is_write_protected(const std::filesystem::path& file) {
 
 }  // namespace
 
+void refuse_write_protected(const std::filesystem::path& file) {
+  if (!is_write_protected(file)) return;
+  throw std::runtime_error{fmt::format(
+      "cannot write '{}': it is write-protected; chmod u+w lets it be replaced", file.string())};
+}
+
 void write_atomically(const std::filesystem::path& file, std::string_view text, FileUse use) {
-  if (use == FileUse::named_by_user && is_write_protected(file)) {
-    throw std::runtime_error{fmt::format(
-        "cannot write '{}': it is write-protected; chmod u+w lets it be replaced", file.string())};
-  }
+  if (use == FileUse::named_by_user) refuse_write_protected(file);
   Draft draft{file, "draft", use == FileUse::named_by_user ? mode_t{0666} : mode_t{0600},
               use == FileUse::report ? Draft::Link::is_replaced : Draft::Link::keeps_pointing};
   if (!write_all(draft.descriptor(), text)) {

@@ -16,4 +16,8 @@ enum class FileUse { report, named_by_user, patient_file };
 void write_atomically(const std::filesystem::path& file, std::string_view text,
                       FileUse use = FileUse::report);
 
+/// Throws as `write_atomically` does where `file`, which a user names, is write-protected: for a
+/// program that writes several, before its work.
+void refuse_write_protected(const std::filesystem::path& file);
+
 }  // namespace armature

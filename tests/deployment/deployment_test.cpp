@@ -3,6 +3,7 @@
 // on the simulated clock in this process.
 #include "armature/runtime/deployment/deployment.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -48,11 +49,12 @@ class DeploymentTest : public testing::Test {
     RunReport::Ending ending;
     if (tells_timing) ending.timing = timing_of(deployment);
     const RunReport report{deployment, ending};
-    Told told{
-        .status = report.status(),
-        .reasons = report.reasons(),
-        .json = to_json(report),
-        .table = to_table(report, [](std::string_view word, bool) { return std::string{word}; })};
+    Told told{.status = report.status(),
+              .reasons = report.reasons(),
+              .json = to_json(report),
+              .table = to_table(
+                  report, [](std::string_view word, bool) { return std::string{word}; },
+                  [](std::string_view text) { return fmt::format("<{}>", text); })};
     for (const auto& figure : report.figures()) {
       if (const auto* value = std::get_if<double>(&figure.value)) told.metrics[figure.key] = *value;
       if (const auto* text = std::get_if<std::string>(&figure.value)) {
@@ -122,7 +124,7 @@ TEST_F(DeploymentTest, WhatCannotBeMeasuredSaysWhyAndDoesNotMeetItsGoal) {
             (std::vector<std::string>{"delay_s was not measured: no beat was heard"}));
   EXPECT_NE(deaf.json.find(R"("not_measured":{"delay_s":"no beat was heard"})"), std::string::npos)
       << deaf.json;
-  EXPECT_NE(deaf.table.find("-   goal 0.001  MISSED   not measured: no beat was heard\n"),
+  EXPECT_NE(deaf.table.find("-   goal 0.001  MISSED   not measured: <no beat was heard>\n"),
             std::string::npos)
       << deaf.table;
 }
@@ -136,7 +138,7 @@ TEST_F(DeploymentTest, AGoalOfAFigureThatDoesNotApplyDecidesNothing) {
   EXPECT_NE(silent.json.find(R"("does_not_apply":{"delay_s":"no beat was to come"})"),
             std::string::npos)
       << silent.json;
-  EXPECT_NE(silent.table.find("-   goal 0.001   does not apply: no beat was to come\n"),
+  EXPECT_NE(silent.table.find("-   goal 0.001   does not apply: <no beat was to come>\n"),
             std::string::npos)
       << silent.table;
 }
@@ -160,7 +162,7 @@ TEST_F(DeploymentTest, AStoryThatFailedTellsItsReason) {
   const Told deaf = run(", sim_latency_s: 1", ", params: {minds_silence: true}");
   EXPECT_TRUE(deaf.json.starts_with(R"({"status":"deaf","reason":"beat tells nothing",)"))
       << deaf.json;
-  EXPECT_NE(deaf.table.find("deaf\n    beat tells nothing\n"), std::string::npos) << deaf.table;
+  EXPECT_NE(deaf.table.find("deaf\n    <beat tells nothing>\n"), std::string::npos) << deaf.table;
   EXPECT_EQ(run("", "").json.find("reason"), std::string::npos);
 }
 

@@ -41,6 +41,7 @@
 #include "run/run_watches.hpp"
 #include "run/watched_end.hpp"
 #include "standard_output.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -93,7 +94,8 @@ bool result_printed(const RunOptions& options, const RunReport& report, Console&
   const auto mark = [](std::string_view word, bool good) {
     return coloured(word, good ? Tone::good : Tone::bad, standard_output());
   };
-  const std::string text = options.json ? to_json(report) + "\n" : to_table(report, mark);
+  const auto quote = [](std::string_view text) { return terminal_lines(text, 4); };
+  const std::string text = options.json ? to_json(report) + "\n" : to_table(report, mark, quote);
   const bool printed =
       std::fputs(text.c_str(), standard_output()) >= 0 && std::fflush(standard_output()) == 0;
   if (!printed) {

@@ -238,7 +238,7 @@ std::string figures_json(const RunReport& report, const RunTiming& timing) {
   return json_text(json);
 }
 
-std::string to_table(const RunReport& report, const Mark& mark) {
+std::string to_table(const RunReport& report, const Mark& mark, const Quote& quote) {
   std::size_t width = 0;
   for (const auto& figure : report.figures()) width = std::max(width, figure.title.size());
   std::string table;
@@ -251,16 +251,19 @@ std::string to_table(const RunReport& report, const Mark& mark) {
         table += "  " + mark(figure.met ? "met" : "MISSED", figure.met);
       }
     }
-    if (!figure.unmeasured.empty()) table += "   not measured: " + figure.unmeasured;
-    if (!figure.inapplicable.empty()) table += "   does not apply: " + figure.inapplicable;
+    if (!figure.unmeasured.empty()) table += "   not measured: " + quote(figure.unmeasured);
+    if (!figure.inapplicable.empty()) table += "   does not apply: " + quote(figure.inapplicable);
     table += '\n';
   }
   table += fmt::format("  {:<{}}  {}\n", "status", width,
                        mark(report.status(), report.status() == "ok"));
-  if (!report.ended_by().empty()) table += fmt::format("    ended by: {}\n", report.ended_by());
-  if (!report.story_reason().empty()) table += fmt::format("    {}\n", report.story_reason());
-  for (const auto& reason : report.reasons()) table += fmt::format("    {}\n", reason);
-  for (const auto& unwell : report.unwell()) table += fmt::format("    unwell: {}\n", unwell);
+  if (!report.ended_by().empty())
+    table += fmt::format("    ended by: {}\n", quote(report.ended_by()));
+  if (!report.story_reason().empty())
+    table += fmt::format("    {}\n", quote(report.story_reason()));
+  for (const auto& reason : report.reasons()) table += fmt::format("    {}\n", quote(reason));
+  for (const auto& unwell : report.unwell())
+    table += fmt::format("    unwell: {}\n", quote(unwell));
   if (report.timing()) table += to_table(*report.timing());
   return table;
 }

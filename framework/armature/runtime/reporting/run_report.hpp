@@ -86,9 +86,11 @@ std::string to_json(const RunReport& report);
 /// `goal`, `met`, `not_measured` and `does_not_apply`; and `timing`.
 std::string figures_json(const RunReport& report, const RunTiming& timing);
 using Mark = std::function<std::string(std::string_view word, bool good)>;
+using Quote = std::function<std::string(std::string_view text)>;
 /// The closing table for people. `mark` gets the words that judge, "met" or "MISSED" of a goal and
-/// the status, and whether they are good news; what it answers stands in their place.
-std::string to_table(const RunReport& report, const Mark& mark);
+/// the status, and whether they are good news; `quote` gets what plugins wrote, reasons and names.
+/// Their answers stand in the place of both.
+std::string to_table(const RunReport& report, const Mark& mark, const Quote& quote);
 /// Writes report.json and lets every component write its files beside it. Throws
 /// std::runtime_error that names each file that could not be written, and why; the others are
 /// there.

@@ -105,7 +105,7 @@ TEST(MotionParams, LimitsFromWhichNoStopComesToRestInTimeAreRefusedWithWhatItTak
       << "defaults, too";
   EXPECT_THAT(told("{max_jerk_rad_s3: 0.001}", 0.4),
               ElementsAre(AllOf(HasSubstr("joint weak of robot uneven takes 0.5 s"),
-                                EndsWith("raise that, or lower max_velocity_rad_s"))))
+                                testing::EndsWith("raise that, or lower max_velocity_rad_s"))))
       << "a stop heeds no jerk, and more acceleration the robot has not";
 }
 

@@ -45,30 +45,17 @@ class KeyRow {
 
 namespace rows {
 
-inline KeyRow number(std::string_view name, std::string_view doc = {}) {
-  return {KeySpec::Type::number, name, doc};
-}
-inline KeyRow integer(std::string_view name, std::string_view doc = {}) {
-  return {KeySpec::Type::integer, name, doc};
-}
-inline KeyRow flag(std::string_view name, std::string_view doc = {}) {
-  return {KeySpec::Type::flag, name, doc};
-}
-inline KeyRow text(std::string_view name, std::string_view doc = {}) {
-  return {KeySpec::Type::text, name, doc};
-}
-inline KeyRow choice(std::string_view name, std::string_view doc = {}) {
-  return {KeySpec::Type::choice, name, doc};
-}
-inline KeyRow numbers(std::string_view name, std::string_view doc = {}) {
-  return {KeySpec::Type::numbers, name, doc};
-}
-inline KeyRow texts(std::string_view name, std::string_view doc = {}) {
-  return {KeySpec::Type::texts, name, doc};
-}
-inline KeyRow section(std::string_view name, std::string_view doc = {}) {
-  return {KeySpec::Type::section, name, doc};
-}
+struct Word {
+  KeySpec::Type type;
+
+  KeyRow operator()(std::string_view name, std::string_view doc = {}) const {
+    return {type, name, doc};
+  }
+};
+
+inline constexpr Word number{KeySpec::Type::number}, integer{KeySpec::Type::integer},
+    flag{KeySpec::Type::flag}, text{KeySpec::Type::text}, choice{KeySpec::Type::choice},
+    numbers{KeySpec::Type::numbers}, texts{KeySpec::Type::texts}, section{KeySpec::Type::section};
 
 }  // namespace rows
 }  // namespace config

@@ -11,11 +11,11 @@
 #include <algorithm>
 #include <bit>
 #include <cerrno>
+#include <concepts>
 #include <cstring>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
-#include <type_traits>
 #include <utility>
 
 #include "armature/recording/file_lock.hpp"
@@ -30,41 +30,54 @@ constexpr int kCompression = 1;  // of zstd: the fastest of its ordinary levels
 
 static_assert(std::endian::native == std::endian::little, "as MCAP stores numbers");
 
-void append_bytes(Bytes& bytes, std::span<const std::byte> more) {
+/// Bytes behind their count.
+struct Counted {
+  std::span<const std::byte> bytes;
+};
+
+// Fields as MCAP stores them.
+void append(Bytes& bytes, std::span<const std::byte> more) {
   bytes.insert(bytes.end(), more.begin(), more.end());
 }
-
-template <class Number>
+template <std::integral Number>
 void append(Bytes& bytes, Number number) {
-  static_assert(std::is_integral_v<Number>);
-  append_bytes(bytes, std::as_bytes(std::span{&number, 1}));
+  append(bytes, std::as_bytes(std::span{&number, 1}));
 }
-
-void append_text(Bytes& bytes, std::string_view text) {
-  append(bytes, static_cast<std::uint32_t>(text.size()));
-  append_bytes(bytes, std::as_bytes(std::span{text}));
+void append(Bytes& bytes, Time time) { append(bytes, time.ns); }
+void append(Bytes& bytes, Counted counted) {
+  append(bytes, static_cast<std::uint32_t>(counted.bytes.size()));
+  append(bytes, counted.bytes);
 }
-
-void append_map(Bytes& bytes, const std::map<std::string, std::string>& map) {
+void append(Bytes& bytes, std::string_view text) {
+  append(bytes, Counted{std::as_bytes(std::span{text})});
+}
+void append(Bytes& bytes, const std::map<std::string, std::string>& map) {
   Bytes inside;
   for (const auto& [key, value] : map) {
-    append_text(inside, key);
-    append_text(inside, value);
+    append(inside, std::string_view{key});
+    append(inside, std::string_view{value});
   }
-  append(bytes, static_cast<std::uint32_t>(inside.size()));
-  append_bytes(bytes, inside);
+  append(bytes, Counted{inside});
 }
 
-/// The record's place for its length is filled in by end_record.
-std::size_t begin_record(Bytes& bytes, Op op) {
+template <class... Fields>
+void append_all(Bytes& bytes, const Fields&... fields) {
+  (append(bytes, fields), ...);
+}
+
+template <class... Fields>
+void append_record(Bytes& bytes, Op op, const Fields&... fields) {
   append(bytes, static_cast<std::uint8_t>(op));
   append(bytes, std::uint64_t{0});
-  return bytes.size();
-}
-
-void end_record(Bytes& bytes, std::size_t begin) {
+  const std::size_t begin = bytes.size();
+  append_all(bytes, fields...);
   const std::uint64_t size = bytes.size() - begin;
   std::memcpy(bytes.data() + begin - sizeof size, &size, sizeof size);
+}
+
+template <class List>
+std::uint32_t count_of(const List& list) {
+  return static_cast<std::uint32_t>(list.size());
 }
 
 std::uint32_t crc_of(std::span<const std::byte> bytes, std::uint32_t before = 0) {
@@ -123,11 +136,8 @@ McapWriter::McapWriter(std::filesystem::path file, Options options)
   make_private(descriptor_);
   if (options_.chain) chain_.emplace();
   Bytes bytes;
-  append_bytes(bytes, std::as_bytes(std::span{mcap::kMagic}));
-  const std::size_t begin = begin_record(bytes, Op::header);
-  append_text(bytes, "ros2");
-  append_text(bytes, options_.library);
-  end_record(bytes, begin);
+  append(bytes, std::as_bytes(std::span{mcap::kMagic}));
+  append_record(bytes, Op::header, std::string_view{"ros2"}, options_.library);
   put_hashed(bytes);
   put_link();
 }
@@ -199,27 +209,17 @@ void McapWriter::check_file() {
 std::uint16_t McapWriter::add(McapSchema schema) {
   schema.id = static_cast<std::uint16_t>(schemas_.size() + 1);  // 0 stands for none
   Bytes& record = schemas_.emplace_back();
-  const std::size_t begin = begin_record(record, Op::schema);
-  append(record, schema.id);
-  append_text(record, schema.name);
-  append_text(record, schema.encoding);
-  append_text(record, schema.data);
-  end_record(record, begin);
-  append_bytes(chunk_.records, record);
+  append_record(record, Op::schema, schema.id, schema.name, schema.encoding, schema.data);
+  append(chunk_.records, record);
   return schema.id;
 }
 
 std::uint16_t McapWriter::add(McapChannel channel) {
   channel.id = static_cast<std::uint16_t>(channels_.size());
   Bytes& record = channels_.emplace_back();
-  const std::size_t begin = begin_record(record, Op::channel);
-  append(record, channel.id);
-  append(record, channel.schema_id);
-  append_text(record, channel.topic);
-  append_text(record, channel.message_encoding);
-  append_map(record, channel.metadata);
-  end_record(record, begin);
-  append_bytes(chunk_.records, record);
+  append_record(record, Op::channel, channel.id, channel.schema_id, channel.topic,
+                channel.message_encoding, channel.metadata);
+  append(chunk_.records, record);
   counts_[channel.id] = 0;
   return channel.id;
 }
@@ -233,13 +233,7 @@ void McapWriter::write(std::uint16_t channel, std::uint32_t sequence, Time log_t
   first_ = messages_ == 0 ? log_time : std::min(first_, log_time);
   last_ = messages_ == 0 ? log_time : std::max(last_, log_time);
   index.push_back({log_time.ns, chunk_.records.size()});
-  const std::size_t begin = begin_record(chunk_.records, Op::message);
-  append(chunk_.records, channel);
-  append(chunk_.records, sequence);
-  append(chunk_.records, log_time.ns);
-  append(chunk_.records, publish_time.ns);
-  append_bytes(chunk_.records, data);
-  end_record(chunk_.records, begin);
+  append_record(chunk_.records, Op::message, channel, sequence, log_time, publish_time, data);
   ++messages_;
   ++counts_[channel];
   if (chunk_.records.size() >= options_.chunk_bytes) end_chunk();
@@ -259,105 +253,60 @@ void McapWriter::end_chunk() {
   }
   Bytes bytes;
   bytes.reserve(records->size() + 64);
-  std::size_t begin = begin_record(bytes, Op::chunk);
-  append(bytes, chunk_.first.ns);
-  append(bytes, chunk_.last.ns);
-  append(bytes, std::uint64_t{chunk_.records.size()});
-  append(bytes, crc_of(chunk_.records));
-  append_text(bytes, compression);
-  append(bytes, std::uint64_t{records->size()});
-  append_bytes(bytes, *records);
-  end_record(bytes, begin);
+  const std::uint64_t unpacked = chunk_.records.size(), packed = records->size();
+  append_record(bytes, Op::chunk, chunk_.first, chunk_.last, unpacked, crc_of(chunk_.records),
+                compression, packed, *records);
   const std::uint64_t chunk_start = position_, chunk_length = bytes.size();
 
   Bytes places;  // of the message indexes, by channel
   for (const auto& [channel, entries] : chunk_.index) {
-    append(places, channel);
-    append(places, chunk_start + bytes.size());
-    begin = begin_record(bytes, Op::message_index);
-    append(bytes, channel);
-    append(bytes, static_cast<std::uint32_t>(16 * entries.size()));
-    for (const auto& [time, offset] : entries) {
-      append(bytes, time);
-      append(bytes, offset);
-    }
-    end_record(bytes, begin);
+    append_all(places, channel, chunk_start + bytes.size());
+    Bytes instants;
+    for (const auto& [time, offset] : entries) append_all(instants, time, offset);
+    append_record(bytes, Op::message_index, channel, Counted{instants});
   }
   const std::uint64_t index_length = bytes.size() - chunk_length;
   put_hashed(bytes);
   messages_in_file_ = messages_;
   put_link();
 
-  Bytes& index = chunk_indexes_.emplace_back();
-  begin = begin_record(index, Op::chunk_index);
-  append(index, chunk_.first.ns);
-  append(index, chunk_.last.ns);
-  append(index, chunk_start);
-  append(index, chunk_length);
-  append(index, static_cast<std::uint32_t>(places.size()));
-  append_bytes(index, places);
-  append(index, index_length);
-  append_text(index, compression);
-  append(index, std::uint64_t{records->size()});
-  append(index, std::uint64_t{chunk_.records.size()});
-  end_record(index, begin);
+  append_record(chunk_indexes_.emplace_back(), Op::chunk_index, chunk_.first, chunk_.last,
+                chunk_start, chunk_length, Counted{places}, index_length, compression, packed,
+                unpacked);
   chunk_.records.clear();
   chunk_.index.clear();
 }
 
 void McapWriter::attach(const McapAttachment& attachment) {
   end_chunk();
-  Bytes bytes;
-  std::size_t begin = begin_record(bytes, Op::attachment);
-  append(bytes, attachment.log_time.ns);
-  append(bytes, attachment.create_time.ns);
-  append_text(bytes, attachment.name);
-  append_text(bytes, attachment.media_type);
-  append(bytes, std::uint64_t{attachment.data.size()});
-  append_bytes(bytes, std::as_bytes(std::span{attachment.data}));
-  append(bytes, crc_of(std::span{bytes}.subspan(begin)));
-  end_record(bytes, begin);
+  const std::uint64_t size = attachment.data.size();
+  Bytes fields, bytes;
+  append_all(fields, attachment.log_time, attachment.create_time, attachment.name,
+             attachment.media_type, size, std::as_bytes(std::span{attachment.data}));
+  append_record(bytes, Op::attachment, fields, crc_of(fields));
   const std::uint64_t start = position_;
   put_hashed(bytes);
   put_link();
-
-  Bytes& index = attachment_indexes_.emplace_back();
-  begin = begin_record(index, Op::attachment_index);
-  append(index, start);
-  append(index, std::uint64_t{bytes.size()});
-  append(index, attachment.log_time.ns);
-  append(index, attachment.create_time.ns);
-  append(index, std::uint64_t{attachment.data.size()});
-  append_text(index, attachment.name);
-  append_text(index, attachment.media_type);
-  end_record(index, begin);
+  append_record(attachment_indexes_.emplace_back(), Op::attachment_index, start,
+                std::uint64_t{bytes.size()}, attachment.log_time, attachment.create_time, size,
+                attachment.name, attachment.media_type);
 }
 
 void McapWriter::add(const McapMetadata& metadata) {
   end_chunk();
   Bytes bytes;
-  std::size_t begin = begin_record(bytes, Op::metadata);
-  append_text(bytes, metadata.name);
-  append_map(bytes, metadata.values);
-  end_record(bytes, begin);
+  append_record(bytes, Op::metadata, metadata.name, metadata.values);
   const std::uint64_t start = position_;
   put_hashed(bytes);
   put_link();
-
-  Bytes& index = metadata_indexes_.emplace_back();
-  begin = begin_record(index, Op::metadata_index);
-  append(index, start);
-  append(index, std::uint64_t{bytes.size()});
-  append_text(index, metadata.name);
-  end_record(index, begin);
+  append_record(metadata_indexes_.emplace_back(), Op::metadata_index, start,
+                std::uint64_t{bytes.size()}, metadata.name);
 }
 
 void McapWriter::close() {
   end_chunk();
   Bytes bytes;
-  const std::size_t begin = begin_record(bytes, Op::data_end);
-  append(bytes, crc_);
-  end_record(bytes, begin);
+  append_record(bytes, Op::data_end, crc_);
   put_hashed(bytes);
   put_summary();
   check_file();
@@ -372,31 +321,17 @@ void McapWriter::put_group(Op op, const std::vector<Bytes>& records, Bytes& summ
                            std::uint64_t start) const {
   if (records.empty()) return;
   const std::uint64_t group_start = start + summary.size();
-  for (const Bytes& record : records) append_bytes(summary, record);
-  const std::size_t begin = begin_record(offsets, Op::summary_offset);
-  append(offsets, static_cast<std::uint8_t>(op));
-  append(offsets, group_start);
-  append(offsets, start + summary.size() - group_start);
-  end_record(offsets, begin);
+  for (const Bytes& record : records) append(summary, record);
+  append_record(offsets, Op::summary_offset, static_cast<std::uint8_t>(op), group_start,
+                start + summary.size() - group_start);
 }
 
 void McapWriter::put_summary() {
-  Bytes statistics;
-  std::size_t begin = begin_record(statistics, Op::statistics);
-  append(statistics, messages_);
-  append(statistics, static_cast<std::uint16_t>(schemas_.size()));
-  append(statistics, static_cast<std::uint32_t>(channels_.size()));
-  append(statistics, static_cast<std::uint32_t>(attachment_indexes_.size()));
-  append(statistics, static_cast<std::uint32_t>(metadata_indexes_.size()));
-  append(statistics, static_cast<std::uint32_t>(chunk_indexes_.size()));
-  append(statistics, first_.ns);
-  append(statistics, last_.ns);
-  append(statistics, static_cast<std::uint32_t>(10 * counts_.size()));
-  for (const auto& [channel, count] : counts_) {
-    append(statistics, channel);
-    append(statistics, count);
-  }
-  end_record(statistics, begin);
+  Bytes counts, statistics;
+  for (const auto& [channel, count] : counts_) append_all(counts, channel, count);
+  append_record(statistics, Op::statistics, messages_, static_cast<std::uint16_t>(schemas_.size()),
+                count_of(channels_), count_of(attachment_indexes_), count_of(metadata_indexes_),
+                count_of(chunk_indexes_), first_, last_, Counted{counts});
 
   const std::uint64_t start = position_;
   Bytes summary, offsets;
@@ -409,19 +344,15 @@ void McapWriter::put_summary() {
   if (chain_) {  // the last link is of the summary; what follows says only where things stand
     chain_->add(summary);
     head_ = chain_->end_link();
-    append_bytes(summary, ChainRecord{.number = ++links_, .hash = head_}.bytes());
+    append(summary, ChainRecord{.number = ++links_, .hash = head_}.bytes());
   }
   const std::uint64_t offsets_start = start + summary.size();
-  append_bytes(summary, offsets);
-  begin = begin_record(summary, Op::footer);
-  append(summary, start);
-  append(summary, offsets_start);
+  append(summary, offsets);
   // Its CRC is of all before it, with the length that the footer will have.
-  append(summary, std::uint32_t{0});
-  end_record(summary, begin);
+  append_record(summary, Op::footer, start, offsets_start, std::uint32_t{0});
   summary.resize(summary.size() - 4);
   append(summary, crc_of(summary));
-  append_bytes(summary, std::as_bytes(std::span{mcap::kMagic}));
+  append(summary, std::as_bytes(std::span{mcap::kMagic}));
   put(summary);
 }
 

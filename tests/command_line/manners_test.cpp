@@ -94,6 +94,20 @@ TEST(TheCommandLine, RefusesAnOptionThatWouldDoNothing) {
   }
 }
 
+TEST(TheCommandLine, TakesNoEmptyNameForAFolderThatNobodyWants) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"run", "dental_lamp", "--report", ""},
+        {"workspace", "--out", ""},
+        {"sweep", "sr1_biopsy", "--out", ""},
+        {"reproduce", "lamp", "--out", ""}}) {
+    std::vector<std::string> command{armature()};
+    command.insert(command.end(), words.begin(), words.end());
+    const auto wrong = run_command(command);
+    EXPECT_EQ(wrong.exit_code, 2) << words.front();
+    EXPECT_THAT(wrong.err, HasSubstr("names nothing: is a variable of the shell empty?"));
+  }
+}
+
 TEST(TheCommandLine, TakesNoValueForAFileAndSaysWhereItGoes) {
   const auto result =
       run_command({armature(), "check", "dental_lamp", "--set", "clock=simulated", "seed=3"});

@@ -6,6 +6,7 @@
 #include "calculate/calculator.hpp"
 #include "calculate/calibrate.hpp"
 #include "calculate/calibrate_stereo.hpp"
+#include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
 #include "workspace/workspace.hpp"
 
@@ -61,7 +62,8 @@ void add_workspace(CLI::App& app, Action& action) {
   add_ranged(workspace, "--samples", options->samples, "places, or joint positions, that are tried",
              1, 10'000'000);
   add_seed(workspace, options->seed, "of what is tried");
-  workspace->add_option("--out", options->out, "folder for workspace.csv and workspace.svg");
+  workspace->add_option("--out", options->out, "folder for workspace.csv and workspace.svg")
+      ->check(no_name);
   workspace->add_flag("--json", options->json, "as JSON");
   workspace->callback([=, &action] { action = [=] { return run_workspace(*options); }; });
 }
@@ -87,9 +89,12 @@ void add_stereo_calibration(CLI::App* calibrate, Action& action) {
       ->check(CLI::Range(1.0, 500.0));
   stereo->add_option("-o,--output", options->output, "file for camera/stereo_pair to write")
       ->required();
-  stereo->add_option("--rig", options->rig, "rig file to write, with the same cameras");
-  stereo->add_option("--coverage", options->coverage,
-                     "picture (SVG) to write: where the corners were in the pictures");
+  stereo->add_option("--rig", options->rig, "rig file to write, with the same cameras")
+      ->check(no_name);
+  stereo
+      ->add_option("--coverage", options->coverage,
+                   "picture (SVG) to write: where the corners were in the pictures")
+      ->check(no_name);
   stereo->add_flag("--k3", options->with_k3, "of the distortion, too: for wide lenses");
   stereo->add_flag("--json", options->json, "as JSON");
   stereo->callback([=, &action] { action = [=] { return run_stereo_calibration(*options); }; });

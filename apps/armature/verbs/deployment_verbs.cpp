@@ -58,6 +58,7 @@ void add_run(CLI::App& app, Action& action) {
                  "go on when the scenario is over, until Ctrl-C: to watch it");
   verb->add_option("--report", options->report,
                    "write report.json, the page report.html, tables and pictures into this folder")
+      ->check(no_name)
       ->excludes(process);
   add_handed_over(*verb, *options);
   verb->callback([options, &action] { action = [options] { return run_deployment(*options); }; });
@@ -124,7 +125,8 @@ void add_sweep(CLI::App& app, Action& action) {
       ->check(not_positive);
   verb->add_option("--out", options->out,
                    "folder for figures.csv, histograms and the reports of all runs; with the same "
-                   "folder an interrupted sweep goes on");
+                   "folder an interrupted sweep goes on")
+      ->check(no_name);
   verb->add_flag("--json", options->json, "as JSON");
   verb->callback([options, seeds, vary, &action] {
     options->seeds = sweep::seeds_of(*seeds);

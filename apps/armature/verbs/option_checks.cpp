@@ -36,6 +36,10 @@ std::string wrong_number(const std::string& text) {
   return "must be a finite number, not '" + text + "'";
 }
 
+std::string no_name(const std::string& text) {
+  return text.empty() ? "names nothing: is a variable of the shell empty?" : "";
+}
+
 std::string not_positive(const std::string& text) {
   double number = 0;
   if (reads_as(text, number) && std::isfinite(number) && number > 0) return "";

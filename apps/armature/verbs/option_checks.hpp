@@ -23,6 +23,8 @@ std::string no_pattern(const std::string& text);
 /// "-", which means standard output elsewhere: a recording is written with its end in mind, into a
 /// file.
 std::string no_file(const std::string& text);
+/// Empty, as a variable of the shell is that nobody set.
+std::string no_name(const std::string& text);
 /// Bytes that are no UTF-8: what is sent on topics is text.
 std::string no_text(const std::string& text);
 /// Not the 64 hexadecimal digits of a SHA-256, in small letters.

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "reproduce/reproduce.hpp"
+#include "verbs/option_checks.hpp"
 #include "verbs/verbs.hpp"
 
 namespace armature {
@@ -13,8 +14,10 @@ void add_paper_verbs(CLI::App& app, Action& action) {
       "reproduce",
       "Tables and figures of a paper beside ours: armature reproduce lamp --out figures");
   reproduce->add_option("paper", options->paper, "lamp, sr1, implant or master")->required();
-  reproduce->add_option("--out", options->out,
-                        "folder for a CSV of each table, a CSV and an SVG of each figure");
+  reproduce
+      ->add_option("--out", options->out,
+                   "folder for a CSV of each table, a CSV and an SVG of each figure")
+      ->check(no_name);
   reproduce->add_flag("--short", options->is_short, "without what takes more than a few seconds");
   reproduce->add_flag("--json", options->json, "as JSON");
   reproduce->callback(

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <csignal>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "armature/values/sanitizer.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "tests/command_line/lamp_robot.hpp"
 
 namespace armature::test {
@@ -197,18 +197,17 @@ TEST(FkCalculator, TakesAUrdfFileWithATipAndABase) {
 }
 
 TEST(FkCalculator, KnowsTheTipOfAUrdfArmAsItsToolToo) {
-  const std::filesystem::path file = std::filesystem::path{testing::TempDir()} / "puma_tool.yaml";
-  std::ofstream{file} << "{armature_robot: 1, name: puma, base: foot, tip: tool0, "
-                         "pointing_axis: y, urdf: "
-                      << source_file("tests/data/urdf/skew_puma.urdf") << "}\n";
+  const TemporaryFolder folder;
+  std::ofstream{folder / "puma_tool.yaml"}
+      << "{armature_robot: 1, name: puma, base: foot, tip: tool0, pointing_axis: y, urdf: "
+      << source_file("tests/data/urdf/skew_puma.urdf") << "}\n";
   const std::string q = "{\"joints\":[0.2,-1,-1.5,0.3,0.5,0.1]}\n";
-  const std::vector<std::string> fk_of{armature(), "fk", "--robot", file};
+  const std::vector<std::string> fk_of{armature(), "fk", "--robot", folder / "puma_tool.yaml"};
   std::vector<std::string> of_tool = fk_of;
   of_tool.insert(of_tool.end(), {"--tip", "tool"});
   const json tip = answers(fk_of, q)[0];
   EXPECT_EQ(tip["direction"].size(), 3U);
   EXPECT_EQ(answers(of_tool, q)[0], tip);
-  std::filesystem::remove(file);
 }
 
 TEST(IkCalculator, ServesAUrdfArmThatHasASolversPatternInClosedForm) {

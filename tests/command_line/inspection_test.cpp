@@ -2,7 +2,6 @@
 // `armature check`, `show`, `graph` and `plugin` tell what a deployment and a plugin are.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,7 @@
 
 #include "armature/values/file_content.hpp"
 #include "armature/values/sanitizer.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -36,34 +36,25 @@ TEST(Check, TellsWhatPartOfItsPromiseTheSearchOfTheLampSees) {
   EXPECT_EQ(without_cameras.out.find("\ntask: "), std::string::npos) << without_cameras.out;
 }
 
-/// A new folder for a deployment, where the robots and rigs of `configs/` are.
-std::filesystem::path folder_beside_robots() {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("armature-example-" + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  for (const char* beside : {"robots", "rigs"}) {
-    std::filesystem::create_symlink(source_file(std::string{"configs/"} + beside), folder / beside);
-  }
-  return folder;
-}
-
 TEST(Check, FindsTheExampleOfTheDocumentationSound) {
   const std::string text = content_of(source_file("docs/deployment_file.md")), fence = "```yaml\n";
   const auto from = text.find(fence);
   ASSERT_NE(from, std::string::npos);
   const auto example =
       text.substr(from + fence.size(), text.find("```", from + fence.size()) - from - fence.size());
-  const auto folder = folder_beside_robots();
+  const TemporaryFolder folder;
+  for (const char* beside : {"robots", "rigs"}) {
+    std::filesystem::create_symlink(source_file(std::string{"configs/"} + beside), folder / beside);
+  }
   std::ofstream{folder / "example.yaml"} << example;
   const auto result = run_command({armature(), "check", folder / "example.yaml"});
-  std::filesystem::remove_all(folder);
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_EQ(result.err, "");
 }
 
 TEST(Check, SaysNothingOfAFileThatIsNoDeployment) {
-  const auto file =
-      std::filesystem::temp_directory_path() / ("armature-other-" + std::to_string(getpid()));
+  const TemporaryFolder folder;
+  const auto file = folder / "other";
   for (const std::string text : {"root:$y$secret:19000:0:99999:7:::\n", "secret: {secret: 1}\n"}) {
     std::ofstream{file} << text;
     for (const char* verb : {"check", "show", "graph", "run"}) {
@@ -72,7 +63,6 @@ TEST(Check, SaysNothingOfAFileThatIsNoDeployment) {
       EXPECT_THAT(result.out + result.err, testing::Not(testing::HasSubstr("secret"))) << verb;
     }
   }
-  std::filesystem::remove(file);
 }
 
 TEST(Check, LetsAComponentThatMayUseARigUseNone) {
@@ -221,9 +211,8 @@ TEST(Show, TellsWhatTheRuntimeWaitsFor) {
 }
 
 /// A file with this text where no robots and rigs are.
-std::string file_elsewhere(const std::string& text) {
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("armature-shown-" + std::to_string(getpid()) + ".yaml");
+std::string file_in(const TemporaryFolder& folder, const std::string& text) {
+  const auto file = folder / "shown.yaml";
   std::ofstream{file} << text;
   return file;
 }
@@ -231,11 +220,11 @@ std::string file_elsewhere(const std::string& text) {
 TEST(Show, PrintsAFileThatIsTheSameDeployment) {
   const auto shown = run_command({armature(), "show", kBiopsyDeployment});
   ASSERT_THAT(shown.out, testing::HasSubstr("# who waits"));
-  const auto file = file_elsewhere(shown.out);
+  const TemporaryFolder elsewhere;
+  const auto file = file_in(elsewhere, shown.out);
   const auto again = run_command({armature(), "check", file});
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(leases_of(file, {}), leases_of(kBiopsyDeployment, {}));
-  std::filesystem::remove(file);
 }
 
 TEST(Show, OfAFaultyFileSaysThatWhoWaitsForWhomIsNotTold) {
@@ -265,10 +254,10 @@ TEST(Show, NamesFilesSuchThatTheDeploymentCanBeRunFromAnyFolder) {
 }
 
 TEST(Show, WhatItPrintedRunsInAnotherFolder) {
-  const auto file = file_elsewhere(run_command({armature(), "show", kBiopsyDeployment}).out);
+  const TemporaryFolder elsewhere;
+  const auto file = file_in(elsewhere, run_command({armature(), "show", kBiopsyDeployment}).out);
   const auto result = run_command({armature(), "run", file, "--json"});
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  std::filesystem::remove(file);
 }
 
 TEST(Graph, NamesTheWriterAndTheReadersOfATopic) {

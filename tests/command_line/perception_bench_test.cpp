@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -31,9 +32,8 @@ CommandResult bench_perception(std::vector<std::string> options) {
 }
 
 TEST(BenchPerception, FindsTheDrawnFacesAndStaysNearTheTruthWhereNothingIsWrong) {
-  const auto folder = std::filesystem::path{testing::TempDir()} / "bench_perception";
+  const TemporaryFolder folder;
   const std::string csv = folder / "pairs.csv";
-  std::filesystem::create_directories(folder);
   const CommandResult result = bench_perception(
       {"dental_lamp", "--pairs", "1", "--json", "--csv", csv, "--worst", folder / "worst"});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -61,7 +61,6 @@ TEST(BenchPerception, FindsTheDrawnFacesAndStaysNearTheTruthWhereNothingIsWrong)
   }
   std::ifstream worst{folder / "worst" / "worst.csv"};
   EXPECT_EQ(std::count(std::istreambuf_iterator<char>{worst}, {}, '\n'), 13);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(BenchPerception, CountsAnEstimatorThatIsWrongAndSaysItIsValid) {
@@ -91,7 +90,8 @@ TEST(BenchPerception, MeasuresTheGroupsThatAreAskedForOnly) {
 // Of a moving face's pairs the first three are sound; the detector looks at the first and at the
 // sixth one only.
 TEST(BenchPerception, WhatComesBeforeATrackedFaceIsRefusedFromItsFirstPairOn) {
-  const auto csv = std::filesystem::path{testing::TempDir()} / "bench_perception_then.csv";
+  const TemporaryFolder folder;
+  const std::string csv = folder / "pairs.csv";
   const CommandResult result =
       bench_perception({"--pairs", "300", "--group", "tracked, then", "--csv", csv});
   ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -112,7 +112,6 @@ TEST(BenchPerception, WhatComesBeforeATrackedFaceIsRefusedFromItsFirstPairOn) {
     ++lines;
   }
   EXPECT_GE(lines, 5 * 6) << "five groups";
-  std::filesystem::remove(csv);
 }
 
 TEST(BenchPerception, WithTheFaceMeshThatWasFetchedOnlyAShiftAlongTheRowsIsWrongAndValid) {
@@ -141,13 +140,13 @@ TEST(BenchPerception, RefusesWhatItCannotMeasure) {
   };
   EXPECT_THAT(refusal({"sr1_biopsy"}),
               HasSubstr("no component of 'sr1_biopsy' is a 'landmarks' plugin"));
-  const std::string rig = std::filesystem::path{testing::TempDir()} / "too_wide.yaml";
+  const TemporaryFolder folder;
+  const std::string rig = folder / "too_wide.yaml";
   std::ofstream{rig}
       << "{armature_rig: 1, name: too_wide, resolution: [9000, 720], fov_deg: 70, "
          "baseline_mm: 120, mount: {frame: tool, forward: [1, 0, 0], right: [0, 0, 1]}}";
   EXPECT_THAT(refusal({"dental_lamp", "--set", "rigs.head=" + rig}),
               HasSubstr("the rig 'too_wide' is 9000 px wide; the bench draws at most 8192"));
-  std::filesystem::remove(rig);
   EXPECT_THAT(refusal({"--face-pose", "face_pose/three_points"}),
               HasSubstr("did you mean 'face_pose/three_point'"));
   const std::string of_no_name = refusal({"dental_lamp", "--landmarks", "landmarks/nope"});

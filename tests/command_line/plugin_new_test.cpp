@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What `armature plugin new` writes and refuses. That it builds and runs: new_plugins_test.cpp.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
 
 #include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 
 namespace armature::test {
@@ -16,13 +16,11 @@ namespace fs = std::filesystem;
 
 class NewPlugin : public testing::Test {
  protected:
-  NewPlugin() { fs::remove_all(folder); }
-  ~NewPlugin() override { fs::remove_all(folder); }
-
   CommandResult write(const std::string& id) const {
     return run_command({armature(), "plugin", "new", id, "-o", folder});
   }
-  const fs::path folder = fs::temp_directory_path() / ("armature-new-" + std::to_string(getpid()));
+  const TemporaryFolder above;
+  const fs::path folder = above / "new";
 };
 
 TEST_F(NewPlugin, IsAShortSolverAndThreeLinesOfCMakeBesidesItsVersion) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "tests/command.hpp"
 
 namespace armature::test {
@@ -19,15 +20,15 @@ using testing::HasSubstr;
 class Reproduce : public testing::TestWithParam<const char*> {};
 
 TEST_P(Reproduce, EveryRowHoldsAndEveryFigureIsWritten) {
-  const fs::path folder = fs::path{testing::TempDir()} / ("reproduce_" + std::string{GetParam()});
-  const auto result =
-      run_command({armature(), "reproduce", GetParam(), "--short", "--json", "--out", folder});
+  const TemporaryFolder folder;
+  const auto result = run_command(
+      {armature(), "reproduce", GetParam(), "--short", "--json", "--out", folder / "out"});
   ASSERT_EQ(result.exit_code, 0) << result.out << result.err;
   const auto report = nlohmann::json::parse(result.out);
   EXPECT_GT(report["rows"], 20);
   EXPECT_EQ(report["failed"], 0);
   int tables = 0, figures = 0;
-  for (const auto& entry : fs::directory_iterator{folder}) {
+  for (const auto& entry : fs::directory_iterator{folder / "out"}) {
     const std::string text = content_of(entry.path());
     if (entry.path().extension() == ".svg") {
       ++figures;
@@ -40,7 +41,6 @@ TEST_P(Reproduce, EveryRowHoldsAndEveryFigureIsWritten) {
   }
   EXPECT_GE(figures, 4);
   EXPECT_EQ(tables, figures + static_cast<int>(report["tables"].size()));
-  fs::remove_all(folder);
 }
 
 INSTANTIATE_TEST_SUITE_P(Papers, Reproduce, testing::Values("lamp", "sr1", "implant", "master"),

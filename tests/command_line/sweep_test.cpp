@@ -12,6 +12,7 @@
 #include <thread>
 #include <vector>
 
+#include "armature/values/temporary_folder.hpp"
 #include "tests/command.hpp"
 #include "tests/text.hpp"
 
@@ -24,8 +25,6 @@ using testing::HasSubstr;
 
 class Sweep : public testing::Test {
  protected:
-  void TearDown() override { fs::remove_all(folder_); }
-
   std::vector<std::string> command(const std::vector<std::string>& more) const {
     std::vector<std::string> words{armature(), "sweep", source_file("configs/sr1_biopsy.yaml")};
     words.insert(words.end(), more.begin(), more.end());
@@ -41,9 +40,8 @@ class Sweep : public testing::Test {
     return std::count(text.begin(), text.end(), '\n');
   }
 
-  const fs::path folder_ =
-      fs::path{testing::TempDir()} /
-      ("sweep_" + std::string{testing::UnitTest::GetInstance()->current_test_info()->name()});
+  const TemporaryFolder above_;
+  const fs::path folder_ = above_ / "sweep";
 };
 
 TEST_F(Sweep, TellsWhatEverySeedToldByItself) {

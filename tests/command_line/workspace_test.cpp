@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "armature/values/temporary_folder.hpp"
 #include "tests/command.hpp"
 #include "tests/text.hpp"
 
@@ -14,7 +14,6 @@ namespace armature::test {
 namespace {
 
 using nlohmann::json;
-namespace fs = std::filesystem;
 
 const std::string kScope = source_file("configs/robots/med7_scope.yaml");
 
@@ -39,27 +38,25 @@ TEST(WorkspaceCommand, OfAnIncisionIsPartOfTheFreeOne) {
 }
 
 TEST(WorkspaceCommand, WritesEveryPointWithItsJointsAndAPicture) {
-  const fs::path folder = fs::path{testing::TempDir()} / "workspace_of_the_master";
-  const CommandResult result =
-      workspace({"--samples", "300", "--out", folder}, source_file("configs/robots/master.yaml"));
+  const TemporaryFolder folder;
+  const CommandResult result = workspace({"--samples", "300", "--out", folder / "out"},
+                                         source_file("configs/robots/master.yaml"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  const std::string csv = text_of(folder / "workspace.csv");
+  const std::string csv = text_of(folder / "out/workspace.csv");
   EXPECT_EQ(csv.substr(0, csv.find('\n')), "x_m,y_m,z_m,j1,j2,j3,j4,j5,j6");
   EXPECT_EQ(std::ranges::count(csv, '\n'), 301);
-  EXPECT_NE(text_of(folder / "workspace.svg").find("Workspace of the tip of master"),
+  EXPECT_NE(text_of(folder / "out/workspace.svg").find("Workspace of the tip of master"),
             std::string::npos);
-  fs::remove_all(folder);
 }
 
 TEST(WorkspaceCommand, OfASinglePointIsDrawnWhereItIs) {
-  const fs::path folder = fs::path{testing::TempDir()} / "workspace_of_one_point";
-  const CommandResult result =
-      workspace({"--samples", "1", "--out", folder}, source_file("configs/robots/master.yaml"));
+  const TemporaryFolder folder;
+  const CommandResult result = workspace({"--samples", "1", "--out", folder / "out"},
+                                         source_file("configs/robots/master.yaml"));
   EXPECT_EQ(result.exit_code, 0) << result.err;
-  const std::string svg = text_of(folder / "workspace.svg");
+  const std::string svg = text_of(folder / "out/workspace.svg");
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
-  fs::remove_all(folder);
 }
 
 TEST(WorkspaceCommand, IsThatOfAnArmWhoseJointsTurnWithoutAnEnd) {

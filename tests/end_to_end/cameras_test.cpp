@@ -3,16 +3,12 @@
 // that a run has recorded, played into it, move the arm exactly as they did then, 3. cameras that
 // freeze are refused and named, those that drift or are exchanged are told of.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-
+#include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
 
 namespace armature::test {
 namespace {
-
-namespace fs = std::filesystem;
 
 const std::string kCameras = source_file("configs/dental_lamp_cameras.yaml");
 const std::string kPlayed = source_file("configs/overlays/played_cameras.yaml");
@@ -21,12 +17,10 @@ const std::string kScene = "components.scene.params.";
 
 class LampWithCameras : public testing::Test {
  protected:
-  ~LampWithCameras() override { fs::remove(recording_); }
-
   DeploymentRun played() const {
     const std::vector<std::string> settings{
         kSimulated, "components.task.params.auto_confirm=true",
-        "components.cameras.params.recording=" + recording_.string(),
+        "components.cameras.params.recording=" + recording_,
         "components.cameras.params.left_topic=left/image_raw",
         "components.cameras.params.right_topic=right/image_raw",
         // The truth, for the report; nobody sees the pictures of this scene.
@@ -35,8 +29,8 @@ class LampWithCameras : public testing::Test {
         "components.report={plugin: report/lamp_alignment}"};
     return run_deployment({.files = {kCameras, kPlayed}, .settings = settings});
   }
-  const fs::path recording_ =
-      fs::temp_directory_path() / ("armature-pictures-" + std::to_string(getpid()) + ".mcap");
+  const TemporaryFolder folder_;
+  const std::string recording_ = folder_ / "pictures.mcap";
 };
 
 TEST_F(LampWithCameras, IsCheckedWithoutACamera) {
@@ -61,7 +55,7 @@ TEST_F(LampWithCameras, IsRefusedWithARigOfOtherCamerasThanTheCalibrations) {
 
 TEST_F(LampWithCameras, GoesWhereItWentWhenItsPicturesArePlayedAgain) {
   const DeploymentRun live =
-      run_deployment({.settings = {kSimulated, "record.file=" + recording_.string()}});
+      run_deployment({.settings = {kSimulated, "record.file=" + recording_}});
   expect_aligned(live);
   const DeploymentRun again = played();
   expect_aligned(again);

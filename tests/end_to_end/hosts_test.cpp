@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "armature/values/temporary_folder.hpp"
 #include "other_machines_test.hpp"
 
 namespace armature::test {
@@ -62,10 +63,7 @@ TEST_F(Hosts, RunOneDeploymentByOneClock) {
 }
 
 TEST_F(Hosts, HaveARecordingEachThatOneCommandJoinsAndThatComesBackBitForBit) {
-  namespace fs = std::filesystem;
-  const fs::path folder =
-      fs::temp_directory_path() / ("armature-hosts-" + std::to_string(getpid()));
-  fs::create_directories(folder);
+  const TemporaryFolder folder;
   const std::string file = folder / "run.mcap", part = folder / "run.aside.mcap",
                     all = folder / "whole.mcap";
   auto settings = pulse("1");
@@ -95,7 +93,6 @@ TEST_F(Hosts, HaveARecordingEachThatOneCommandJoinsAndThatComesBackBitForBit) {
   }
   ASSERT_EQ(clocks.size(), 2U) << info.dump(1);
   for (const std::string& ahead_s : clocks) EXPECT_LT(std::abs(std::stod(ahead_s)), 0.02);
-  fs::remove_all(folder);
 }
 
 TEST_F(Hosts, AreNotAccusedWhenTheRunIsInterruptedBeforeTheyCame) {
@@ -109,18 +106,16 @@ TEST_F(Hosts, AreNotAccusedWhenTheRunIsInterruptedBeforeTheyCame) {
 }
 
 TEST_F(Hosts, ThatDidNotComeLeaveNoRecordingInTheWayOfTheNextStart) {
-  namespace fs = std::filesystem;
-  const fs::path file =
-      fs::temp_directory_path() / ("armature-hosts-" + std::to_string(getpid()) + ".mcap");
+  const TemporaryFolder folder;
+  const std::string file = folder / "run.mcap";
   auto settings = pulse("1");
-  settings.push_back("record.file=" + file.string());
+  settings.push_back("record.file=" + file);
   const auto main = start_main(settings);
   ASSERT_TRUE(main->wait_for_err("waiting for host 'desk'", kTimeout)) << main->err();
-  EXPECT_TRUE(fs::exists(file));
+  EXPECT_TRUE(std::filesystem::exists(file));
   main->signal(SIGINT);
   EXPECT_EQ(main->finish(kTimeout).exit_code, 1) << main->err();
-  EXPECT_FALSE(fs::exists(file));
-  fs::remove(file);
+  EXPECT_FALSE(std::filesystem::exists(file));
 }
 
 TEST_F(Hosts, TheOtherOneMayBeThereFirst) {

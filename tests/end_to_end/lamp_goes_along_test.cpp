@@ -3,7 +3,6 @@
 // alone; with two cameras what they and the filter see of a face that turns comes on top.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -11,6 +10,7 @@
 #include <fstream>
 #include <string>
 
+#include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
 
 namespace armature::test {
@@ -92,18 +92,16 @@ double max_distance_m(const std::filesystem::path& table, double begins_s) {
 /// A head that turns by 60 degrees within 0.8 s is lost on the way: where it was going to be is not
 /// passed.
 TEST(LampGoesAlong, AHeadThatTurnsAwayFastDoesNotDrawTheLampPastIt) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("armature-lamp-" + std::to_string(getpid()));
+  const TemporaryFolder folder;
   const std::string scene = "components.scene.params.";
   const DeploymentRun run = run_deployment(
       {.settings = {kSimulated, scene + "move_at_s=7", scene + "move_duration_s=0.8",
                     scene + "move_tilt_side_deg=60", "components.report.params.expect_move=true"},
-       .report_folder = folder.string()});
+       .report_folder = folder.path()});
   EXPECT_EQ(run.status(), "ok") << run.text();
   const double max_m = max_distance_m(folder / "errors.csv", 7);
   EXPECT_GT(max_m, 0.499);
   EXPECT_LT(max_m, 0.53);
-  std::filesystem::remove_all(folder);
 }
 
 /// While a patient stops he is no longer where his speed in the last picture would have him.

@@ -2,11 +2,10 @@
 // The master manipulator: from the instrument's pose to a follower that a hand leads, by one file;
 // and every way in which the follower must stand still.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <fstream>
 
+#include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
 
 namespace armature::test {
@@ -183,16 +182,14 @@ TEST(MasterManipulator, AnIncisionThatTheShaftIsNotInHoldsTheFollowerAndNothingM
 /// A file for the knife: so much of each way, in so many seconds.
 class KnifePath {
  public:
-  explicit KnifePath(const std::string& rows)
-      : file_{std::filesystem::path{testing::TempDir()} /
-              (std::to_string(::getpid()) + "-knife.csv")} {
+  explicit KnifePath(const std::string& rows) {
     std::ofstream{file_} << "t,x,y,z,qx,qy,qz,qw\n" << rows;
   }
-  ~KnifePath() { std::filesystem::remove(file_); }
-  std::string setting() const { return kSurgeon + "path=" + file_.string(); }
+  std::string setting() const { return kSurgeon + "path=" + file_; }
 
  private:
-  std::filesystem::path file_;
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_ / "knife.csv";
 };
 
 TEST(MasterManipulator, AKnifeGoesAPlannedPathAboutTheIncision) {

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 
 #include <chrono>
-#include <filesystem>
 #include <fstream>
 #include <mutex>
 #include <string>
@@ -17,6 +16,7 @@
 #include "armature/messages/header.hpp"
 #include "armature/task/heard_word.hpp"
 #include "armature/task/procedure.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "asker.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
@@ -121,7 +121,6 @@ class OperatorQuestionTest : public testing::Test {
     EXPECT_EQ(mkfifo(keyboard_.c_str(), 0600), 0);
     task_.enter(alignment_);
   }
-  ~OperatorQuestionTest() override { std::filesystem::remove(keyboard_); }
 
   std::vector<std::string> operating(std::vector<std::string> more = {}) const {
     std::vector<std::string> command{armature(), "operator",
@@ -138,9 +137,8 @@ class OperatorQuestionTest : public testing::Test {
   }
 
   const int domain_ = unique_dds_domain();
-  const std::string keyboard_ =
-      (std::filesystem::temp_directory_path() / ("armature-keys-" + std::to_string(domain_)))
-          .string();
+  const TemporaryFolder folder_;
+  const std::string keyboard_ = folder_ / "keyboard";
   const std::size_t alignment_;
   PlayedTask task_;
 };

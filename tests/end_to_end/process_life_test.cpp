@@ -2,14 +2,13 @@
 // Interrupted, killed, started twice, started without room for shared memory: a clear message, no
 // hang, nothing left behind that breaks the next run, and an arm whose last samples are at rest.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <csignal>
-#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <thread>
 
+#include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
 #include "drill/arm_listener.hpp"
 #include "tests/dds_domain.hpp"
@@ -106,14 +105,12 @@ class ProcessLifeBeforeStart : public testing::TestWithParam<EndBeforeStart> {};
 
 TEST_P(ProcessLifeBeforeStart, ASignalEndsTheRunAtOnceAndIsToldInItsOwnWords) {
   std::signal(SIGHUP, SIG_DFL);  // a run goes on ignoring what its starter ignores, as under nohup
-  const auto file = std::filesystem::temp_directory_path() /
-                    ("armature-slow-start-" + std::to_string(getpid()) + ".yaml");
+  const TemporaryFolder folder;
+  const auto file = folder / "slow_start.yaml";
   std::ofstream{file} << "armature: 1\nname: slow_start\ncomponents:\n"
                          "  beat: {plugin: test/beat, params: {construction_s: 100}}\n";
-  const auto folder = std::filesystem::path{file}.replace_extension();
-  std::filesystem::create_directories(folder);
   std::ofstream{folder / "report.json"} << R"({"status":"ok"})";
-  Command run{{armature(), "run", file, "--json", "--report", folder, "--domain",
+  Command run{{armature(), "run", file, "--json", "--report", folder.path(), "--domain",
                std::to_string(unique_dds_domain())},
               {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}};
   ASSERT_TRUE(run.wait_for_err("being constructed", kStartsWithin)) << run.err();
@@ -121,8 +118,6 @@ TEST_P(ProcessLifeBeforeStart, ASignalEndsTheRunAtOnceAndIsToldInItsOwnWords) {
   const CommandResult result = run.finish(seconds{1});
   std::ifstream report{folder / "report.json"};
   const std::string reported{std::istreambuf_iterator<char>{report}, {}};
-  std::filesystem::remove(file);
-  std::filesystem::remove_all(folder);
   EXPECT_FALSE(result.timed_out) << result.err;
   EXPECT_EQ(result.exit_code, 1);
   const std::string told = GetParam().words + " before the start";

@@ -3,7 +3,6 @@
 // the deployment no sample that it reads itself on the system clock, and leave nothing behind in
 // it. For so many seconds: ARMATURE_MONITORS_S, 8 without.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -18,6 +17,7 @@
 #include <thread>
 #include <vector>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -39,11 +39,7 @@ std::chrono::seconds length() {
 /// At most four at a time, each for as long as chance will have it.
 class RandomMonitors {
  public:
-  RandomMonitors(int domain, fs::path folder) : domain_{domain}, folder_{std::move(folder)} {
-    fs::create_directories(folder_);
-    std::printf("seed %u\n", seed_);
-  }
-  ~RandomMonitors() { fs::remove_all(folder_); }
+  explicit RandomMonitors(int domain) : domain_{domain} { std::printf("seed %u\n", seed_); }
 
   /// One comes, and another one is stopped or killed.
   void change() {
@@ -76,7 +72,7 @@ class RandomMonitors {
 
   static constexpr std::size_t kMost = 4;
   const int domain_;
-  const fs::path folder_;
+  const TemporaryFolder folder_;
   const unsigned seed_ = std::random_device{}();
   std::mt19937 random_{seed_};
   std::vector<std::unique_ptr<Command>> running_;
@@ -92,8 +88,7 @@ class RandomMonitorsTest : public testing::Test {
   }
 
   const int domain_ = unique_dds_domain();
-  RandomMonitors monitors_{
-      domain_, fs::temp_directory_path() / ("armature-monitors-" + std::to_string(getpid()))};
+  RandomMonitors monitors_{domain_};
 };
 
 TEST_F(RandomMonitorsTest, ChangeNoByteOfATrajectoryInLockstep) {

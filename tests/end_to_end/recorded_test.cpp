@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <cctype>
 #include <csignal>
@@ -15,6 +14,7 @@
 
 #include "armature/recording/mcap_reader.hpp"
 #include "armature/recording/mcap_writer.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -32,9 +32,6 @@ constexpr std::chrono::seconds kEnough{60};
 
 class Recorded : public testing::Test {
  protected:
-  Recorded() { fs::create_directories(folder_); }
-  ~Recorded() override { fs::remove_all(folder_); }
-
   std::vector<std::string> record(std::vector<std::string> more) const {
     more.insert(more.begin(), {armature(), "record", "-o", file_});
     more.insert(more.end(), {"--domain", std::to_string(domain_)});
@@ -59,8 +56,7 @@ class Recorded : public testing::Test {
   }
 
   const int domain_ = unique_dds_domain();
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-recorded-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
   const std::string file_ = folder_ / "run.mcap";
   Command run_{{armature(), "run", source_file("tests/end_to_end/arm_watched.yaml"), "--set",
                 "clock=system", "--domain", std::to_string(domain_)}};
@@ -187,7 +183,7 @@ TEST_F(Recorded, AFileThatIsThereIsNotReplacedUnlessItIsWanted) {
 TEST_F(Recorded, WhatIsReplacedStaysUntilThereIsAWholeRecording) {
   std::ofstream{file_} << "older";
   const auto files = [&] {
-    return std::distance(fs::directory_iterator{folder_}, fs::directory_iterator{});
+    return std::distance(fs::directory_iterator{folder_.path()}, fs::directory_iterator{});
   };
   const CommandResult nothing =
       run_command(record({"/nobody", "--timeout", "1", "--force"}), {}, kEnough);
@@ -202,7 +198,7 @@ TEST_F(Recorded, WhatIsReplacedStaysUntilThereIsAWholeRecording) {
   EXPECT_EQ(second.exit_code, 1);
   EXPECT_EQ(second.err, "armature: '" + file_ + "' is being written by another program\n");
   const auto draft = [&]() -> fs::path {
-    for (const auto& entry : fs::directory_iterator{folder_}) {
+    for (const auto& entry : fs::directory_iterator{folder_.path()}) {
       if (entry.path() != file_) return entry.path();
     }
     return {};
@@ -322,23 +318,23 @@ TEST(RecordedFile, IsMadeOfOthersWithoutWhatIsOfADomain) {
 }
 
 TEST(Info, OfAPipeSaysThatItIsNoFileAndDoesNotWaitForItsWriter) {
-  const std::string pipe = testing::TempDir() + "info-pipe-" + std::to_string(getpid());
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   const CommandResult result = run_command({armature(), "info", pipe}, {}, kEnough);
-  fs::remove(pipe);
   EXPECT_EQ(result.exit_code, 1);
   EXPECT_THAT(result.err, HasSubstr("': it is no regular file"));
 }
 
 TEST(Info, OfADamagedFileTellsItsContentsBeforeWhatIsWrongWithIt) {
-  const std::string cut = testing::TempDir() + "info-cut-" + std::to_string(getpid());
+  const TemporaryFolder folder;
+  const std::string cut = folder / "cut";
   {
     McapWriter writer{cut, {}};
     writer.add(McapMetadata{.name = "run", .values = {{"seed", "1"}}});
   }
   const CommandResult result =
       run_command({"/bin/sh", "-c", "'" + armature() + "' info '" + cut + "' 2>&1"});
-  fs::remove(cut);
   const std::size_t told = result.out.find(" chunks, "), wrong = result.out.find("is not whole");
   ASSERT_NE(wrong, std::string::npos) << result.out;
   EXPECT_LT(told, wrong) << result.out;

@@ -2,10 +2,10 @@
 // SR-1 from pictures: from a volume to a needle in the true lesion, and every volume with which it
 // must not go on.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
+#include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
 
 namespace armature::test {
@@ -78,10 +78,8 @@ TEST(Sr1FromImages, NoWayPastTheVesselsIsToldWithItsReasons) {
 /// Of a run that left its volume in a file.
 class Sr1FromAFile : public testing::Test {
  protected:
-  ~Sr1FromAFile() override { std::filesystem::remove(file_); }
-
-  const std::string file_ = std::filesystem::temp_directory_path() /
-                            ("armature-sr1-" + std::to_string(getpid()) + ".nrrd");
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_ / "volume.nrrd";
   const std::vector<std::string> settings_{
       "components.tomograph={plugin: image/volume, params: {path: " + file_ + "}}"};
 };

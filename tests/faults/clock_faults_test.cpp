@@ -2,12 +2,12 @@
 // Somebody sets the system clock while a deployment of two processes moves an arm: its ages, leases
 // and commands go by the monotonic clock, so that nothing but a note comes of it.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -21,13 +21,7 @@ using testing::Not;
 
 class SteppedClock : public testing::Test {
  protected:
-  SteppedClock() {
-    file_ = (std::filesystem::temp_directory_path() /
-             ("armature-clock-" + std::to_string(getpid()) + "-" + std::to_string(domain_)))
-                .string();
-    set(0);
-  }
-  ~SteppedClock() override { std::filesystem::remove(file_); }
+  SteppedClock() { set(0); }
 
   /// How far the system clock is ahead from now on.
   void set(int ahead_s) const {
@@ -52,7 +46,8 @@ class SteppedClock : public testing::Test {
   }
 
   const int domain_ = unique_dds_domain();
-  std::string file_;
+  const TemporaryFolder folder_;
+  const std::string file_ = folder_ / "ahead_s";
 };
 
 std::string note(const std::string& step) {

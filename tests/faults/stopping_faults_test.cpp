@@ -15,6 +15,7 @@
 #include <set>
 #include <thread>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 
@@ -34,11 +35,6 @@ const std::string kApart = "components.arm.process=aside";
 
 class PulledPlug : public testing::Test {
  protected:
-  PulledPlug() {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / "armature-halt-XXXXXX").string();
-    folder_ = mkdtemp(pattern.data());
-  }
   ~PulledPlug() override {
     // Of a run behind a shell, which is not there any more when the test has failed.
     const std::string pid = file("pid");
@@ -46,7 +42,6 @@ class PulledPlug : public testing::Test {
     std::string words;
     std::getline(line, words);
     if (words.find(folder_) != std::string::npos) kill(std::stoi(pid), SIGKILL);
-    std::filesystem::remove_all(folder_);
   }
 
   std::vector<std::string> command(const std::vector<std::string>& settings = {}) {
@@ -75,7 +70,8 @@ class PulledPlug : public testing::Test {
 
   const Command::Options options_{.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}},
                                   .input = {}};
-  std::string folder_;
+  const TemporaryFolder temporary_;
+  const std::string folder_ = temporary_.path();
   const int domain_ = unique_dds_domain();
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sources of Armature as a folder of another project, without DDS, OpenCV and dlib.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "page.hpp"
 #include "tests/text.hpp"
@@ -13,19 +13,15 @@
 namespace armature::test {
 namespace {
 
-namespace fs = std::filesystem;
-
 TEST(Embedded, TheLibraryIsAPartOfAnothersBuild) {
-  const fs::path folder =
-      fs::temp_directory_path() / ("armature-embedded-" + std::to_string(getpid()));
-  fs::create_directories(folder);
+  const TemporaryFolder folder;
   const std::string page = text_of(source_file("docs/library.md"));
   std::ofstream{folder / "CMakeLists.txt"} << block_of(page, "txt");
   std::ofstream{folder / "reach.cpp"} << block_of(page, "cpp");
-  fs::create_directory_symlink(ARMATURE_SOURCE_DIR, folder / "armature");
+  std::filesystem::create_directory_symlink(ARMATURE_SOURCE_DIR, folder / "armature");
   const auto shell = [&](const std::string& script) {
-    return run_command({"/bin/bash", "-c", "set -e\ncd " + folder.string() + "\n" + script}, {},
-                       std::chrono::seconds{280});
+    return run_command({"/bin/bash", "-c", "set -e\ncd " + folder.path().string() + "\n" + script},
+                       {}, std::chrono::seconds{280});
   };
   // A package that is not disabled here and missing would be told as an error of CMake.
   const auto configured =
@@ -42,7 +38,6 @@ TEST(Embedded, TheLibraryIsAPartOfAnothersBuild) {
   const auto result = shell("build/reach armature/configs/robots/dental_lamp.yaml");
   EXPECT_EQ(result.exit_code, 0) << result.err;
   EXPECT_TRUE(result.out.starts_with("ok\n")) << result.out;
-  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // An installed Armature needs nothing of the folder that it was built in: a new plugin's README
 // holds for it, too.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
@@ -12,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "page.hpp"
 #include "tests/dds_domain.hpp"
@@ -37,9 +37,6 @@ std::string script_of(const std::string& readme) {
 /// Installed into a folder of its own.
 class Installed : public testing::Test {
  protected:
-  Installed() { fs::remove_all(folder_); }
-  ~Installed() override { fs::remove_all(folder_); }
-
   void SetUp() override {
     const auto result =
         run_command({CMAKE_PROGRAM, "--install", ARMATURE_BINARY_DIR, "--prefix", prefix_});
@@ -50,12 +47,11 @@ class Installed : public testing::Test {
         .environment = {{"PATH", (prefix_ / "bin").string() + ":" + std::getenv("PATH")},
                         {"ARMATURE_PLUGIN_PATH", ""}},
         .input = {}};
-    return run_command({"/bin/bash", "-c", "cd " + folder_.string() + "\n" + script}, environment,
-                       std::chrono::seconds{200});
+    return run_command({"/bin/bash", "-c", "cd " + folder_.path().string() + "\n" + script},
+                       environment, std::chrono::seconds{200});
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-installed-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
   const fs::path prefix_ = folder_ / "prefix";
 };
 
@@ -124,7 +120,7 @@ std::vector<std::string> write_files(const std::string& page, const fs::path& fo
 
 TEST_F(Installed, TheMessagesPageBuildsAndRuns) {
   const auto commands =
-      write_files(text_of(ARMATURE_SOURCE_DIR "/docs/your_own_messages.md"), folder_);
+      write_files(text_of(ARMATURE_SOURCE_DIR "/docs/your_own_messages.md"), folder_.path());
   EXPECT_EQ(commands.size(), 8U);
   std::string script = "set -e\nexport PREFIX=" + prefix_.string() + "\n";
   // A reader is alone on his machine; tests are not. In the background the program takes the place

@@ -2,11 +2,11 @@
 // docs/your_own_*.md do what they say: the "$ ..." lines of a page are run, in order, by one shell.
 // So does the README of every new plugin.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
+#include "armature/values/temporary_folder.hpp"
 #include "command.hpp"
 #include "tests/dds_domain.hpp"
 #include "tests/new_plugins.hpp"
@@ -31,17 +31,13 @@ std::vector<std::string> commands_of(const std::string& page) {
 
 class YourOwn : public testing::Test {
  protected:
-  YourOwn() {
-    fs::create_directories(folder_);
-    fs::create_directory_symlink(source_file("configs"), folder_ / "configs");
-  }
-  ~YourOwn() override { fs::remove_all(folder_); }
+  YourOwn() { fs::create_directory_symlink(source_file("configs"), folder_ / "configs"); }
 
   /// What they print; they all end well.
   std::string run_page(const std::string& page) const {
     const auto commands = commands_of(source_file(page));
     EXPECT_GE(commands.size(), 9U);
-    return run_commands(commands, folder_, {});
+    return run_commands(commands, folder_.path(), {});
   }
   static std::string run_commands(const std::vector<std::string>& commands, const fs::path& where,
                                   const Command::Options& options) {
@@ -60,8 +56,7 @@ class YourOwn : public testing::Test {
     return result.out;
   }
 
-  const fs::path folder_ =
-      fs::temp_directory_path() / ("armature-tutorial-" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(YourOwn, SolverComesAboutAsThePageSays) {

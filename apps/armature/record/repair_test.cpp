@@ -265,8 +265,8 @@ TEST(DamagedRecording, WithAnyNameIsRepairedByTheLineThatIsTold) {
   }
   const std::string told = info_text({.file = file.path()}, kFailed);
   const std::string folder = file.path().parent_path();
-  EXPECT_THAT(told, HasSubstr("--repair '" + folder + "/armature-"));
-  EXPECT_THAT(told, HasSubstr("-the patient'\\''s $HOME.mcap' -o whole.mcap"));
+  EXPECT_THAT(told,
+              HasSubstr("--repair '" + folder + "/the patient'\\''s $HOME.mcap' -o whole.mcap"));
 }
 
 TEST(DamagedRecording, WhoseNamesATerminalWouldObeyIsRepairedWithoutThat) {

@@ -3,7 +3,6 @@
 #include "armature/calibration/recorded_poses.hpp"
 
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <fstream>
 #include <functional>
@@ -11,6 +10,7 @@
 
 #include "armature/config/problems.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature {
 namespace {
@@ -20,8 +20,6 @@ using ::testing::StartsWith;
 
 class RecordedPoses : public ::testing::Test {
  protected:
-  ~RecordedPoses() override { std::filesystem::remove(file_); }
-
   const std::filesystem::path& file(const std::string& text) const {
     std::ofstream{file_} << text;
     return file_;
@@ -44,8 +42,8 @@ class RecordedPoses : public ::testing::Test {
     return problems([&] { read_hand_eye_poses(file(text), robot); });
   }
 
-  const std::filesystem::path file_ =
-      std::filesystem::temp_directory_path() / ("recorded_poses_" + std::to_string(getpid()));
+  const TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "recorded_poses";
   const RobotModel med7_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/med7.yaml");
 };
 

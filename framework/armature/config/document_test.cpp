@@ -16,6 +16,7 @@
 #include "armature/config/params.hpp"
 #include "armature/config/reader.hpp"
 #include "armature/config/source_text.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature::config {
 namespace {
@@ -28,17 +29,10 @@ using testing::Not;
 class Documents : public testing::Test {
  protected:
   void SetUp() override {
-    const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path{testing::TempDir()} / (std::string{"armature_config_"} + test->name());
-    fs::remove_all(folder_);
     fs::create_directories(folder_ / "sub");
-    before_ = fs::current_path();
-    fs::current_path(folder_);
+    fs::current_path(folder_.path());
   }
-  void TearDown() override {
-    fs::current_path(before_);
-    fs::remove_all(folder_);
-  }
+  void TearDown() override { fs::current_path(before_); }
   static void write(const fs::path& file, std::string_view text) { std::ofstream{file} << text; }
 
   static std::string merged(const std::vector<fs::path>& files,
@@ -51,7 +45,8 @@ class Documents : public testing::Test {
   }
 
  private:
-  fs::path folder_, before_;
+  const TemporaryFolder folder_;
+  const fs::path before_ = fs::current_path();
 };
 
 TEST_F(Documents, SayWhyAFileCannotBeRead) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Another plugin in the place of one: by an overlay, and by one word of the command line.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -9,6 +8,7 @@
 #include <vector>
 
 #include "armature/config/document.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature::config {
 namespace {
@@ -19,7 +19,6 @@ class PluginSwap : public testing::Test {
   PluginSwap() {
     std::ofstream{file_} << "m:\n  ik: {plugin: ik/a, executor: fast, params: {x: 1, y: 2}}\n";
   }
-  ~PluginSwap() override { std::filesystem::remove(file_); }
 
   /// What stands there after the assignments.
   std::string after(const std::vector<std::string>& assignments,
@@ -33,8 +32,8 @@ class PluginSwap : public testing::Test {
     return "m:\n  ik:\n    plugin: " + plugin + "\n    executor: fast\n" + params;
   }
 
-  std::filesystem::path file_ = std::filesystem::path{testing::TempDir()} /
-                                ("armature-swap-" + std::to_string(getpid()) + ".yaml");
+  const TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "swap.yaml";
 };
 
 TEST_F(PluginSwap, AnOverlayWithAnotherPluginBringsItsOwnParameters) {

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <cstdint>
@@ -19,6 +18,7 @@
 
 #include "armature/recording/mcap_writer.hpp"
 #include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature {
 
@@ -44,12 +44,7 @@ inline void write_all_but_the_end(McapWriter& writer, int messages) {
 /// A file of this test, gone with it.
 class RecordingFile {
  public:
-  explicit RecordingFile(const std::string& name)
-      : path_{std::filesystem::temp_directory_path() /
-              ("armature-" + std::to_string(getpid()) + "-" + name + ".mcap")} {}
-  ~RecordingFile() { std::filesystem::remove(path_); }
-  RecordingFile(const RecordingFile&) = delete;
-  RecordingFile& operator=(const RecordingFile&) = delete;
+  explicit RecordingFile(const std::string& name) : path_{folder_ / (name + ".mcap")} {}
 
   const std::filesystem::path& path() const { return path_; }
   std::string bytes() const { return content_of(path_); }
@@ -59,7 +54,8 @@ class RecordingFile {
   }
 
  private:
-  std::filesystem::path path_;
+  const TemporaryFolder folder_;
+  const std::filesystem::path path_;
 };
 
 /// No file of this process grows longer while it exists.

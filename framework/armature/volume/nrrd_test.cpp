@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
-#include <unistd.h>
 #include <zlib.h>
 
 #include <Eigen/Geometry>
@@ -14,6 +13,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "armature/values/temporary_folder.hpp"
+
 namespace armature {
 namespace {
 
@@ -21,8 +22,6 @@ namespace fs = std::filesystem;
 
 class Nrrd : public testing::Test {
  protected:
-  ~Nrrd() override { fs::remove(file_); }
-
   void write(const std::string& header, const std::string& data) const {
     std::ofstream{file_, std::ios::binary} << "NRRD0004\n" << header << "\n" << data;
   }
@@ -63,8 +62,8 @@ class Nrrd : public testing::Test {
     return out;
   }
 
-  const fs::path file_ =
-      fs::temp_directory_path() / ("armature-nrrd-" + std::to_string(getpid()) + ".nrrd");
+  const TemporaryFolder folder_;
+  const fs::path file_ = folder_ / "volume.nrrd";
   const std::string eight_ = bytes<std::int16_t>({1, 2, 3, 4, 5, 6, 7, -8});
 };
 

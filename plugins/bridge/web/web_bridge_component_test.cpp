@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is judged where no run is; tests/end_to_end/web_bridge_test.cpp has the runs.
 #include <gmock/gmock.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "armature/web/web_server.hpp"
 
 namespace armature::bridge::web {
@@ -26,17 +26,12 @@ std::string refusal_with(const std::string& params) {
 /// A file with a token, gone with the test.
 class TokenFile {
  public:
-  explicit TokenFile(const std::string& text)
-      : path_{testing::TempDir() + "web_bridge_" + std::to_string(getpid()) + ".token"} {
-    std::ofstream{path_} << text;
-  }
-  ~TokenFile() { std::remove(path_.c_str()); }
-  TokenFile(const TokenFile&) = delete;
-  TokenFile& operator=(const TokenFile&) = delete;
+  explicit TokenFile(const std::string& text) { std::ofstream{path_} << text; }
   const std::string& path() const { return path_; }
 
  private:
-  std::string path_;
+  const TemporaryFolder folder_;
+  const std::string path_ = folder_ / "monitor.token";
 };
 
 TEST(WebBridgeParameters, LeavesThePortAloneWhereItIsNotRun) {

@@ -4,7 +4,6 @@
 // calibration and a rig that do not belong together are refused before the run.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <Eigen/Dense>
 #include <cmath>
@@ -17,6 +16,7 @@
 #include "armature/robot/geometry/rotation.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "rectification.hpp"
 
 namespace armature::camera::stereo_pair {
@@ -120,7 +120,6 @@ Vector3d triangulated(const msg::CameraInfo& left, const msg::CameraInfo& right,
 class StereoPairTest : public testing::Test {
  protected:
   StereoPairTest() { std::ofstream{file_} << calibration(); }
-  ~StereoPairTest() override { std::filesystem::remove(file_); }
 
   ComponentHarness::Options options(const std::string& more = "",
                                     const std::string& rig = "") const {
@@ -138,8 +137,8 @@ class StereoPairTest : public testing::Test {
     pair.send("left_raw", picture(Time{} + seconds(left_s)));
     pair.send("right_raw", picture(Time{} + seconds(right_s)));
   }
-  const std::filesystem::path file_ = std::filesystem::temp_directory_path() /
-                                      ("armature-stereo-" + std::to_string(getpid()) + ".yaml");
+  const TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "stereo.yaml";
 };
 
 TEST_F(StereoPairTest, ShowsPointsInTheSameRowsAndItsInfosTriangulateThem) {

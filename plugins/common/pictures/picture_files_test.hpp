@@ -2,12 +2,13 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
+
+#include "armature/values/temporary_folder.hpp"
 
 // Pictures in files, for the tests.
 namespace armature::pictures {
@@ -15,26 +16,15 @@ namespace armature::pictures {
 /// A folder of this test, gone with it.
 class PictureFolder {
  public:
-  PictureFolder()
-      : path_{std::filesystem::temp_directory_path() /
-              ("armature-pictures-" + std::to_string(getpid()) + "-" +
-               testing::UnitTest::GetInstance()->current_test_info()->name())} {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~PictureFolder() { std::filesystem::remove_all(path_); }
-  PictureFolder(const PictureFolder&) = delete;
-  PictureFolder& operator=(const PictureFolder&) = delete;
-
-  std::string path(const std::string& name = "") const { return (path_ / name).string(); }
+  std::string path(const std::string& name = "") const { return (folder_ / name).string(); }
   /// All pixels are `grey`.
   void write(const std::string& name, int grey, int width = 8, int height = 6) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
+    std::filesystem::create_directories((folder_ / name).parent_path());
     ASSERT_TRUE(cv::imwrite(path(name), cv::Mat{height, width, CV_8UC1, cv::Scalar::all(grey)}));
   }
   /// A coloured picture of 160 x 120 pixels that does not compress to nothing.
   void write_stripes(const std::string& name) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
+    std::filesystem::create_directories((folder_ / name).parent_path());
     cv::Mat picture(120, 160, CV_8UC3);
     for (int v = 0; v < picture.rows; ++v) {
       for (int u = 0; u < picture.cols; ++u) {
@@ -45,12 +35,12 @@ class PictureFolder {
     ASSERT_TRUE(cv::imwrite(path(name), picture));
   }
   void write_text(const std::string& name, const std::string& text) const {
-    std::filesystem::create_directories((path_ / name).parent_path());
-    std::ofstream{path_ / name} << text;
+    std::filesystem::create_directories((folder_ / name).parent_path());
+    std::ofstream{folder_ / name} << text;
   }
 
  private:
-  std::filesystem::path path_;
+  const TemporaryFolder folder_;
 };
 
 }  // namespace armature::pictures

@@ -4,11 +4,11 @@
 #include "calibration_file.hpp"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <fstream>
 
 #include "armature/config/problems.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "rectification.hpp"
 
 namespace armature::stereo {
@@ -110,10 +110,6 @@ std::string edited(std::string text,
 
 class CalibrationFileTest : public testing::Test {
  protected:
-  ~CalibrationFileTest() override {
-    std::filesystem::remove(left_);
-    std::filesystem::remove(right_);
-  }
   StereoCalibration read(const std::string& text, double unit_m = 0.001) const {
     std::ofstream{left_} << text;
     return read_stereo_calibration(left_, "", unit_m);
@@ -142,10 +138,8 @@ class CalibrationFileTest : public testing::Test {
   std::string problems_of(const std::string& text) const {
     return problems([&] { read(text); });
   }
-  const std::filesystem::path left_ = std::filesystem::temp_directory_path() /
-                                      ("armature-left-" + std::to_string(getpid()) + ".yaml");
-  const std::filesystem::path right_ = std::filesystem::temp_directory_path() /
-                                       ("armature-right-" + std::to_string(getpid()) + ".yaml");
+  const TemporaryFolder folder_;
+  const std::filesystem::path left_ = folder_ / "left.yaml", right_ = folder_ / "right.yaml";
 };
 
 TEST_F(CalibrationFileTest, ReadsOpenCvsFileOfBothCameras) {

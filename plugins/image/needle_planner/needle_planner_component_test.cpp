@@ -2,7 +2,6 @@
 // The planner on its topics: a plan for a sound volume, a reason for every other.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
@@ -11,6 +10,7 @@
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "armature/volume/nrrd.hpp"
 #include "small_head_test.hpp"
 
@@ -22,8 +22,6 @@ using testing::HasSubstr;
 
 class NeedlePlannerTest : public testing::Test {
  protected:
-  ~NeedlePlannerTest() override { std::filesystem::remove(file_); }
-
   void announce(const SmallHead& head) {
     const Volume volume = head.scan();
     ASSERT_TRUE(write_nrrd(volume, file_));
@@ -63,8 +61,8 @@ class NeedlePlannerTest : public testing::Test {
     return head;
   }
 
-  const std::filesystem::path file_ = std::filesystem::temp_directory_path() /
-                                      ("armature-plan-" + std::to_string(getpid()) + ".nrrd");
+  const TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "volume.nrrd";
   ComponentHarness planner_{
       built_plugins(),
       {.component = "{plugin: image/needle_planner, params: {markers: 4}}", .robot = {}}};

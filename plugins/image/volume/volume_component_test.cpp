@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 
 #include "armature/kinds/volume_messages.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "armature/volume/nrrd.hpp"
 
 namespace armature::image::volume {
@@ -14,15 +14,13 @@ namespace {
 
 class VolumeComponentTest : public testing::Test {
  protected:
-  ~VolumeComponentTest() override { std::filesystem::remove(file_); }
-
   ComponentHarness component() const {
     return {built_plugins(),
             {.component = "{plugin: image/volume, params: {path: " + file_.string() + "}}",
              .robot = {}}};
   }
-  const std::filesystem::path file_ = std::filesystem::temp_directory_path() /
-                                      ("armature-in-" + std::to_string(getpid()) + ".nrrd");
+  const TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "volume.nrrd";
 };
 
 TEST_F(VolumeComponentTest, AnnouncesAFileOnceAndReadersHaveItsVoxels) {

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
 #include <fstream>
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature::report::images {
 namespace {
@@ -106,17 +105,15 @@ TEST_F(ImagesReportTest, TellsNothingOfWhatNobodyFound) {
 }
 
 TEST_F(ImagesReportTest, WritesAllWaysWithTheirReasons) {
-  const auto folder = std::filesystem::temp_directory_path() / std::to_string(getpid());
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   report_.send("ways", ways());
   report_.step(0.1);
-  report_.component().write_files(folder);
+  report_.component().write_files(folder.path());
   std::ifstream file{folder / "needle_ways.csv"};
   std::string line;
   std::getline(file, line);
   std::getline(file, line);
   EXPECT_EQ(line, "0.00,0.00,0.00,70.00,9.00,5.73,0.000,\"because\"");
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

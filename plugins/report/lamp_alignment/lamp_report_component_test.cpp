@@ -12,6 +12,7 @@
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
 #include "armature/values/file_content.hpp"
+#include "armature/values/temporary_folder.hpp"
 
 namespace armature::report::lamp_alignment {
 namespace {
@@ -222,11 +223,9 @@ TEST_F(LampReportTest, IsDegradedByAJointStateThatIsNoneUntilAGoodOneComes) {
 }
 
 TEST_F(LampReportTest, WritesWhatTheCameraSawAndHowTheErrorsWentDown) {
-  const std::filesystem::path folder =
-      testing::TempDir() + "lamp_report_" + std::to_string(getpid());
-  std::filesystem::create_directories(folder);
+  const TemporaryFolder folder;
   run(0.2);
-  report_.component().write_files(folder);
+  report_.component().write_files(folder.path());
   EXPECT_FALSE(std::filesystem::exists(folder / "left_camera.png")) << "it saw nothing";
   EXPECT_TRUE(std::filesystem::exists(folder / "errors.png"));
 
@@ -247,7 +246,7 @@ TEST_F(LampReportTest, WritesWhatTheCameraSawAndHowTheErrorsWentDown) {
   report_.send("left_image", image);
   report_.send("landmarks", landmarks);
   tick();
-  report_.component().write_files(folder);
+  report_.component().write_files(folder.path());
   EXPECT_TRUE(std::filesystem::exists(folder / "left_camera.png"));
 
   const std::string without_face = content_of(folder / "left_camera.png");
@@ -262,13 +261,12 @@ TEST_F(LampReportTest, WritesWhatTheCameraSawAndHowTheErrorsWentDown) {
     report_.send("landmarks", landmarks);
     report_.send("face", face);
     tick();
-    report_.component().write_files(folder);
+    report_.component().write_files(folder.path());
     return content_of(folder / "left_camera.png");
   };
   EXPECT_EQ(picture_with(), without_face);
   face.header_() = image.header_();
   EXPECT_NE(picture_with(), without_face);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

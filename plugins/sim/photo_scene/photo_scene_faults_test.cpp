@@ -4,7 +4,6 @@
 // flickers; 6. round heads and their truth, 7. photos of one's own.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdint>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "armature/kinds/target/target_messages.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "photo_scene_harness_test.hpp"
 
 namespace armature::sim::photo_scene {
@@ -216,8 +216,8 @@ TEST(PhotoSceneFaults, PhotosAndPartsThatCannotBeAreRefusedWithTheWayOut) {
 }
 
 TEST(PhotoSceneFaults, APhotoThatIsCutOffIsRefused) {
-  const std::string file = std::filesystem::temp_directory_path() /
-                           ("armature-photo-" + std::to_string(getpid()) + ".jpg");
+  const TemporaryFolder folder;
+  const std::string file = folder / "photo.jpg";
   const auto refusal = [&] {
     return refusal_of(built_plugins(),
                       scene_with("photo: file, photo_file: " + file +
@@ -230,7 +230,6 @@ TEST(PhotoSceneFaults, APhotoThatIsCutOffIsRefused) {
   std::filesystem::resize_file(file, std::filesystem::file_size(file) / 3);
   EXPECT_THAT(refusal(), HasSubstr(file + " is not an image that can be read: a JPEG cannot be "
                                           "unpacked: "));
-  std::filesystem::remove(file);
 }
 
 TEST(PhotoSceneFaults, APhotoThatIsAFolderOrHasTooManyPixelsIsRefusedByItsName) {
@@ -239,8 +238,8 @@ TEST(PhotoSceneFaults, APhotoThatIsAFolderOrHasTooManyPixelsIsRefusedByItsName) 
                       scene_with("photo: file, photo_file: " + file +
                                  ", photo_eyes_px: [50, 40, 90, 40], photo_mouth_px: [70, 90]"));
   };
-  const std::string file = std::filesystem::temp_directory_path() /
-                           ("armature-photo-" + std::to_string(getpid()) + ".pgm");
+  const TemporaryFolder folder;
+  const std::string file = folder / "photo.pgm";
   EXPECT_EQ(refusal("/usr"), "/usr is no file; a photo is a PNG or JPEG");
   std::ofstream{file} << "P5 16000 16000 255\n";
   EXPECT_EQ(refusal(file), file +
@@ -249,7 +248,6 @@ TEST(PhotoSceneFaults, APhotoThatIsAFolderOrHasTooManyPixelsIsRefusedByItsName) 
   std::filesystem::resize_file(file, std::uintmax_t{20} << 30);  // a hole: it takes no room
   EXPECT_EQ(refusal(file), "cannot open the photo " + file +
                                ": it has 21474836480 bytes; at most 420000000 are read");
-  std::filesystem::remove(file);
 }
 
 }  // namespace

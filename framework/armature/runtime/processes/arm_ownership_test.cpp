@@ -9,12 +9,11 @@
 #include <fstream>
 
 #include "armature/config/document.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "tests/refusal.hpp"
 
 namespace armature {
 namespace {
-
-namespace fs = std::filesystem;
 
 const std::string kOwner = "pid " + std::to_string(getpid());
 
@@ -49,8 +48,8 @@ class ArmOwnership : public testing::Test {
 
   const PluginManifest metal_ = plugin("device: port"), nameless_ = plugin(""),
                        simulated_ = plugin("simulated: true");
-  const std::string port_ =
-      (fs::temp_directory_path() / ("armature-port-" + std::to_string(getpid()))).string();
+  const TemporaryFolder folder_;
+  const std::string port_ = folder_ / "port";
 
  private:
   int made_ = 0;
@@ -66,12 +65,10 @@ TEST_F(ArmOwnership, TwoDeploymentsDoNotDriveOneDevice) {
 TEST_F(ArmOwnership, ADeviceIsTheSameUnderEveryName) {
   const std::string other = port_ + "-by-id";
   std::ofstream{port_} << "";
-  fs::create_symlink(port_, other);
+  std::filesystem::create_symlink(port_, other);
   const auto owned = own_arms(driving(metal_, port_), "main", 1);
-  const std::string told = refusal(driving(metal_, other));
-  fs::remove(other);
-  fs::remove(port_);
-  EXPECT_EQ(told, "the arm at '" + other + "' is driven by " + kOwner + " already; stop it first");
+  EXPECT_EQ(refusal(driving(metal_, other)),
+            "the arm at '" + other + "' is driven by " + kOwner + " already; stop it first");
 }
 
 TEST_F(ArmOwnership, ADriverThatNamesNoDeviceDrivesTheOnlyArmOfItsKind) {

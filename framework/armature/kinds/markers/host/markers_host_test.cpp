@@ -2,7 +2,6 @@
 // The host of the marker finders: 1. every volume is searched once, under its own stamp, 2. what
 // cannot be searched is told with its reason.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <stdexcept>
@@ -13,6 +12,7 @@
 #include "armature/messages/stamp.hpp"
 #include "armature/runtime/testing/component_harness.hpp"
 #include "armature/runtime/testing/test_plugins.hpp"
+#include "armature/values/temporary_folder.hpp"
 #include "armature/volume/nrrd.hpp"
 
 namespace armature::markers_host {
@@ -35,8 +35,6 @@ PluginRegistry& plugins() {
 
 class MarkersHostTest : public ::testing::Test {
  protected:
-  ~MarkersHostTest() override { std::filesystem::remove(file_); }
-
   void announce(std::int16_t value, double taken_s) {
     Volume volume{{.size = {2, 2, 2}}, std::vector<std::int16_t>(8, value)};
     volume.geometry.origin = {0.1, 0.2, 0.3};
@@ -54,8 +52,8 @@ class MarkersHostTest : public ::testing::Test {
     return all.empty() ? msg::ImageMarkers{} : all.front();
   }
 
-  const std::filesystem::path file_ = std::filesystem::temp_directory_path() /
-                                      ("armature-host-" + std::to_string(getpid()) + ".nrrd");
+  const TemporaryFolder folder_;
+  const std::filesystem::path file_ = folder_ / "volume.nrrd";
   ComponentHarness host_{plugins(), {.component = "{plugin: markers/first_voxel}", .robot = {}}};
 };
 

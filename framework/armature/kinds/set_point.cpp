@@ -17,13 +17,14 @@ constexpr Duration kCalm = seconds(0.1);  // without trouble: it is over
 /// Braking uses less than the limit: the last step is an incomplete one, and drops by up to 9/8.
 constexpr double kBrake = 0.85;
 
-/// The fastest approach from which the joint can still stop after `distance`, when its velocity
-/// changes in steps.
-double stopping_velocity(double distance, double a_limit, double dt) {
-  const double a = kBrake * a_limit;
-  const double step = 0.5 * a * dt;
+/// The fastest step of `dt` from which the joint can still stop after `distance`, however short the
+/// steps behind it are. The next one may be slower by what half of this one allows, of which
+/// `counts_s` counts: v dt + (v - a counts_s / 2)^2 / 2a is the distance.
+double stopping_velocity(double distance, double a_limit, double dt, double counts_s) {
+  const double a = kBrake * a_limit, behind = 0.5 * counts_s;
   const double left = std::max(distance, 0.0);
-  return std::min(std::sqrt(step * step + 2 * a * left) - step, left / dt);
+  if (left <= a * behind * dt) return left / dt;
+  return a * (behind - dt + std::sqrt(dt * dt + 2 * (left / a - behind * dt)));
 }
 
 }  // namespace
@@ -174,8 +175,10 @@ std::optional<LimitExcess> SetPoint::jump(int joint, const Step& wanted) const {
 
 bool SetPoint::is_beyond_a_step(int joint, const Step& wanted) const {
   const double v = (wanted.q - q_[joint]) / wanted.dt;
+  const double to_next_s = 0.5 * (std::min(wanted.dt, timeout_s_) + period_s_);
   return std::abs(v) > model_.max_velocity()[joint] * (1 + kRounding) ||
-         sudden(joint, v - executed_v_[joint], apart(wanted.dt));
+         sudden(joint, v - executed_v_[joint], apart(wanted.dt)) ||
+         sudden(joint, v - wanted.v, to_next_s);
 }
 
 std::optional<LimitExcess> SetPoint::jump_in_stream(int joint, const ServoCommand& command) const {
@@ -219,10 +222,13 @@ void SetPoint::move_within_limits(int joint, const Step& wanted) {
   const double a = model_.max_acceleration()[joint];
   const double v_limit = model_.max_velocity()[joint];
   const double behind = wanted.q - wanted.v * dt - q_[joint];  // which moves on meanwhile
-  const double approach = std::copysign(stopping_velocity(std::abs(behind), a, dt), behind);
+  const auto stopping = [&](double distance) {
+    return stopping_velocity(distance, a, dt, std::min(dt, timeout_s_));
+  };
+  const double approach = std::copysign(stopping(std::abs(behind)), behind);
   double v = std::clamp(wanted.v + approach, -v_limit, v_limit);
-  v = std::min(v, stopping_velocity(highest(joint) - q_[joint], a, dt));
-  v = std::max(v, -stopping_velocity(q_[joint] - lowest(joint), a, dt));
+  v = std::min(v, stopping(highest(joint) - q_[joint]));
+  v = std::max(v, -stopping(q_[joint] - lowest(joint)));
   const double change = a * apart(dt);
   v = std::clamp(v, executed_v_[joint] - change, executed_v_[joint] + change);
   advance(joint, v, dt);

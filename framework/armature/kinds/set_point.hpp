@@ -81,7 +81,8 @@ class SetPoint {
   /// The same between two commands, by their own stamps: when either side's thread runs late, the
   /// commands still tell a motion that keeps the limits.
   std::optional<LimitExcess> jump_in_stream(int joint, const ServoCommand& command) const;
-  /// Does the way there ask for more than the joint can in this step, whoever is to blame?
+  /// Does the way there ask for more than the joint can in this step, or to have the command's
+  /// velocity in the next one, whoever is to blame?
   bool is_beyond_a_step(int joint, const Step& wanted) const;
   std::optional<LimitExcess> sudden(int joint, double change, double window) const;
   std::optional<LimitExcess> displaced(int joint, double gap, double window) const;

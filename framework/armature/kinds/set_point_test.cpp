@@ -290,6 +290,30 @@ TEST(SetPoint, BrakesFromItsSpeedThoughTheStepBeforeWasALateOne) {
   EXPECT_NEAR(arm.velocity()[0], v - 8 * 0.001, 1e-6);
 }
 
+TEST(SetPoint, ComesToRestWithinItsLimitsWhereverOneStepOnTheWayIsALateOne) {
+  const RobotModel model = one_joint(0.5, 5);
+  constexpr double kPeriod_s = 0.001;
+  for (const double target : {0.3, 0.5, 0.6}) {
+    for (const double late_s : {0.0, 0.02, 0.09, 0.3}) {
+      for (int late_step = 1; late_step < 900; late_step += 3) {
+        SetPoint arm{model, seconds(0.1), seconds(kPeriod_s), value(0)};
+        double t = 1, q = 0, v = 0, dt = kPeriod_s, worst = 0;
+        for (int k = 1; k < 1300; ++k) {
+          const double before = std::exchange(dt, kPeriod_s + (k == late_step ? late_s : 0));
+          t += dt;
+          const Time now = Time{} + seconds(t);
+          arm.step(now, ServoCommand{now, value(target), value(0)});
+          const double v_before = std::exchange(v, (arm.position()[0] - q) / dt);
+          worst = std::max(worst, std::abs(v - v_before) / (0.5 * (before + dt)));
+          q = arm.position()[0];
+        }
+        ASSERT_LE(worst, 5 * (1 + 1e-6)) << target << ", late by " << late_s << " s, " << late_step;
+        EXPECT_NEAR(q, std::min(target, 0.5), 1e-9);
+      }
+    }
+  }
+}
+
 TEST(SetPoint, AJumpBehindALongPauseOfItsOwnThreadIsOne) {
   const RobotModel model = one_joint();
   SetPoint arm{model, seconds(0.1), seconds(0.001), value(0)};

@@ -117,7 +117,7 @@ std::vector<ExecutorSpec> read_executors(std::span<const Node::Entry> section,
     if (const auto cpu = map.optional_integer("cpu")) spec.cpu = static_cast<int>(*cpu);
     spec.lock_memory = map.flag("lock_memory");
     spec.sim_pause = seconds(map.number("sim_pause_s"));
-    spec.seed = deployment.seed_of(name);
+    spec.seed = deployment.seed_of("executor " + name);
     map.finish();
     executors.push_back(std::move(spec));
   }

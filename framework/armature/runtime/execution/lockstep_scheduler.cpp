@@ -18,6 +18,7 @@ void LockstepScheduler::add(ComponentRunner& runner, SimulatedPauses& pauses,
   entries_.push_back({.runner = &runner, .pauses = &pauses, .period = period});
   Entry& entry = entries_.back();
   runner.on_triggered([this, &entry] {
+    entry.triggered = clock_->now();
     if (entry.is_triggered) return;
     entry.is_triggered = true;
     schedule({.time = clock_->now(), .place = entry.runner->place(), .activate = &entry});
@@ -65,6 +66,9 @@ void LockstepScheduler::handle(Event& event) {
   } else {
     entry.is_triggered = false;
   }
+  // What held the thread up held two events up, and the first of them has done the second's work.
+  if ((event.periodic ? event.due : entry.triggered) < entry.activated) return;
+  entry.activated = event.time;
   running_ = &entry;
   entry.runner->activate(event.time, event.time - event.due);
   running_ = nullptr;

@@ -36,6 +36,7 @@ class LockstepScheduler final : public Scheduler {
     SimulatedPauses* pauses;  // of its executor
     std::optional<Duration> period;
     bool is_triggered = false;  // an activation by trigger is already queued
+    Time triggered, activated;  // last
   };
   struct Event {
     Time time;

@@ -78,6 +78,31 @@ TEST(LockstepScheduler, WhatTriggersAHeldUpThreadAgainAndAgainActivatesItOnce) {
   EXPECT_EQ(std::set(seen.begin(), seen.end()).size(), seen.size());
 }
 
+TEST(LockstepScheduler, WhatTriggersAHeldUpThreadInItsOwnCycleActivatesItOnce) {
+  SimulatedClock clock;
+  LockstepScheduler scheduler{clock};
+  const MessageType type = number_type();
+  Topic topic{{.name = "rt/n", .type = &type}, 100};
+  std::vector<std::int64_t> sent, seen;
+  const auto source = make_runner("source", 0, [&](Time now) {
+    sent.push_back(now.ns);
+    scheduler.publish(topic, topic.loan());
+  });
+  const auto sink = make_runner("sink", 1, [&](Time now) { seen.push_back(now.ns); });
+  topic.connect(sink->inbox().add({.name = "in", .trigger = true}, type));
+  scheduler.assign({.name = "a", .period = Duration{7}}, {source.get()});
+  scheduler.assign({.name = "b", .period = Duration{10}, .sim_pause = Duration{25}}, {sink.get()});
+  scheduler.run([&] { return clock.now().ns >= 100'000; });
+  for (std::size_t i = 1; i < seen.size(); ++i) {
+    if (seen[i] != seen[i - 1]) continue;
+    EXPECT_TRUE(seen[i] % 7 == 0) << seen[i] << ": no message came then";
+  }
+  for (const std::int64_t at : sent) {
+    const auto next = std::ranges::lower_bound(seen, at);
+    EXPECT_TRUE(next == seen.end() || *next - at <= 26) << at << ": a message was not minded";
+  }
+}
+
 TEST(LockstepScheduler, DeliversAtOnceWithoutLatencyAndLaterWithOne) {
   for (const Duration latency : {Duration{0}, Duration{7}}) {
     SimulatedClock clock;

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cstddef>
 
+#include "armature/values/utf8.hpp"
 #include "armature/values/without_blanks.hpp"
 
 namespace armature {
@@ -20,7 +21,7 @@ constexpr std::array<std::string_view, 3> kNotEnabled{"disabled", "paused", "fau
 constexpr std::string_view kEnabled = "enabled";
 constexpr std::string_view kHolding = "holding";
 
-constexpr std::size_t kToldOfAWord = 40;  // letters
+constexpr std::size_t kToldOfAWord = 40;  // bytes
 
 /// Drivers write such words small or large, "emergency-stop" or "Emergency Stop".
 bool is_same_word(std::string_view word, std::string_view said) {
@@ -82,7 +83,7 @@ ReasonText StopInputs::stop_of(std::string_view state) {
     unknown_word_ = ReasonText::format(
         "the arm says '{}', which is none of ENABLED, HOLDING, DISABLED, PAUSED, FAULT, "
         "PROTECTIVE_STOP, EMERGENCY_STOP and OVERRIDE",
-        without_blanks(state).substr(0, kToldOfAWord));
+        beginning_of(without_blanks(state), kToldOfAWord));
     return was_enabled_ ? unknown_word_ : ReasonText{};
   }
   return was_enabled_ ? ReasonText::format("the arm says {}", lost) : ReasonText{};

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "armature/values/utf8.hpp"
+
 namespace armature ARMATURE_EXPORT {
 
 /// Text of at most `kCapacity` bytes that lives in place: what a control thread has to say. Longer
@@ -46,7 +48,10 @@ class InlineText {
     constexpr std::string_view kCut = "...";
     static_assert(kCapacity > kCut.size());
     size_ = std::min(wanted, kCapacity);
-    if (wanted > kCapacity) std::copy(kCut.begin(), kCut.end(), bytes_.end() - kCut.size());
+    if (wanted <= kCapacity) return;
+    const std::size_t kept = beginning_of(view(), kCapacity - kCut.size()).size();
+    std::copy(kCut.begin(), kCut.end(), bytes_.begin() + kept);
+    size_ = kept + kCut.size();
   }
 
   std::array<char, kCapacity> bytes_{};

@@ -10,9 +10,11 @@
 namespace armature ARMATURE_EXPORT {
 
 /// Tells by an arm's own samples whether it rests: no joint was farther than its tolerance from one
-/// place for 50 ms. Real-time safe.
+/// place for `kRests_s`. Real-time safe.
 class RestWatch {
  public:
+  static constexpr double kRests_s = 0.05;
+
   /// [rad] or [m] of each independent joint: more than the noise of its encoder.
   explicit RestWatch(JointVector tolerance) : tolerance_{std::move(tolerance)} {}
 
@@ -26,7 +28,7 @@ class RestWatch {
   }
   /// What was seen says nothing any more.
   void forget() { since_.reset(); }
-  bool rests() const { return since_ && seen_ - *since_ >= seconds(0.05); }
+  bool rests() const { return since_ && seen_ - *since_ >= seconds(kRests_s); }
 
  private:
   JointVector tolerance_, place_;

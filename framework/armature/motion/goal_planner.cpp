@@ -9,6 +9,7 @@
 #include <numbers>
 #include <utility>
 
+#include "armature/kinds/trajectory/legs.hpp"
 #include "armature/motion/left_path.hpp"
 #include "armature/motion/missed_pose.hpp"
 #include "armature/robot/kinematics/kinematics.hpp"
@@ -139,10 +140,10 @@ std::string with_way_out(std::string defect, const Plan& plan, const RobotModel&
 /// is none.
 double begin_of_lines_s(const Plan& plan) {
   double begin_s = 0;
-  for (const PathSegment& segment : plan.path) {
-    if (segment.space == PathSegment::Space::cartesian) return begin_s;
-    if (!segment.stop_at_end) break;
-    begin_s = next_rest_s(plan.trajectory, begin_s);
+  for (std::size_t k = 0; k < plan.path.size(); ++k) {
+    if (plan.path[k].space == PathSegment::Space::cartesian) return begin_s;
+    if (!plan.path[k].stop_at_end) break;
+    if (moves(plan.joint_path[k])) begin_s = next_rest_s(plan.trajectory, begin_s);
   }
   return kToolEntersNothing;
 }
@@ -352,6 +353,7 @@ tl::expected<std::vector<JointSegment>, PlanFailure> GoalPlanner::joint_path(
   std::size_t next = 0;
   for (std::size_t k = 0; k < path.size(); ++k) {
     const PathSegment& segment = path[k];
+    if (segment.samples.empty()) return fail("path", fmt::format("segment {} is empty", k + 1));
     JointSegment& joint = segments.emplace_back(JointSegment{.s = {0.0},
                                                              .q = {last},
                                                              .stop_at_end = segment.stop_at_end,

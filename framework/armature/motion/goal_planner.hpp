@@ -46,7 +46,7 @@ class GoalPlanner {
   /// a stop that comes first counts for nothing there.
   /// Where the goal is bound to the path, by path_only, by being stepwise or by key poses, the tool
   /// leaves no line of it by more than `max_path_deviation`; where it is spliced while moving, from
-  /// the second sample on.
+  /// the second sample on, or it is not spliced.
   /// With forbidden zones every link that the robot file states keeps `min_link_clearance` on the
   /// whole way, a stop before it left out; where it does not, the way begins in another branch, if
   /// there is one that does. The tool goes into a zone that says so (`tool_enters`) behind the

@@ -406,6 +406,45 @@ TEST(GoalPlanner, TakesAWayBesideALineThatNobodyIsBoundToForNoWorseOne) {
       << "bound to its path";
 }
 
+/// A line in two pieces.
+MotionGoal past_the_middle() {
+  MotionGoal goal = goal_at(1, 1, 0, 0);
+  goal.focus = Eigen::Vector3d{0.5, 0, 0};
+  return goal;
+}
+
+TEST(GoalPlanner, AGoalThatIsBoundToItsPathIsNotSplicedBesideIt) {
+  const Gantry gantry;
+  JointState from = rest_at(0, 0, 0);
+  from.v = Eigen::Vector3d{0, 0.5, 0};
+  const auto begin_of = [&](const PlanningOptions& options) {
+    const auto plan = gantry.planner(options).plan(past_the_middle(), from, kStart);
+    return plan ? plan->path[0].samples[0].pose.position.y() : -1;
+  };
+  EXPECT_EQ(begin_of({}), 0);
+  EXPECT_GT(begin_of({.path_only = true}), 0.01) << "behind a stop";
+}
+
+TEST(GoalPlanner, NamesASegmentOfAPathThatIsEmpty) {
+  const Gantry gantry;
+  class EmptyFirst final : public PathPlanner {
+   public:
+    Expected<Path> plan(const PathRequest& request) const override {
+      Path path = *test::LinePath{}.plan(request);
+      path.insert(path.begin(),
+                  {.space = PathSegment::Space::joint, .samples = {}, .duration_s = {}});
+      return path;
+    }
+  } path;
+  GoalPlanner planner{gantry.model,
+                      {path, gantry.ik, gantry.select, gantry.trajectory},
+                      gantry.limits,
+                      {.path_only = true}};
+  const auto plan = planner.plan(past_the_middle(), rest_at(0, 0, 0), kStart);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().reason, "segment 1 is empty");
+}
+
 /// A whole turn back from the branch of the crank.
 class CrankIkOfTwoTurns final : public IkSolver {
  public:
@@ -468,6 +507,14 @@ TEST(LeftPath, IsNothingWhereThePathItselfBends) {
   EXPECT_EQ(left_path(model, plan, {0.0005, 0.001}), std::nullopt);
   plan.path[0].samples[1].pose = {(pin_at(0).position + pin_at(0.2).position) / 2, Direction{}};
   EXPECT_NE(left_path(model, plan, {0.0005, 0.001}), std::nullopt);
+  Plan stands_first = plan;
+  stands_first.path.insert(stands_first.path.begin(), {.space = PathSegment::Space::joint,
+                                                       .samples = {{.s = 1, .pose = pin_at(0)}},
+                                                       .duration_s = {}});
+  const JointVector zero = JointVector::Zero(1);
+  stands_first.joint_path.insert(stands_first.joint_path.begin(),
+                                 {.s = {0, 1}, .q = {zero, zero}, .duration_s = {}});
+  EXPECT_NE(left_path(model, stands_first, {0.0005, 0.001}), std::nullopt);
   plan.path[0].samples[2].pose.orientation = Eigen::Quaterniond::Identity();
   EXPECT_EQ(left_path(model, plan, {0.0005, 0.001}),
             "segment 1 of the path has directions and rotations");

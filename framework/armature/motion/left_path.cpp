@@ -86,21 +86,26 @@ std::optional<std::string> left_path(const RobotModel& model, const Plan& plan,
   constexpr double kParts[] = {0.25, 0.5, 0.75};
   const TrajectoryView way = plan.trajectory.view();
   const bool is_splice = !at_rest(state_at(way, way.knots.front()));
+  const auto is_line = [](const PathSegment& segment) {
+    return segment.space == PathSegment::Space::cartesian;
+  };
+  if (std::ranges::none_of(plan.path, is_line)) return std::nullopt;
   std::size_t knot = 0;
   for (std::size_t k = 0; k < plan.path.size(); ++k) {
     const std::vector<PathSample>& samples = plan.path[k].samples;
     const std::vector<JointVector>& q = plan.joint_path[k].q;
-    const bool is_line =
-        plan.path[k].space == PathSegment::Space::cartesian && q.size() == samples.size();
-    if (is_line && is_mixed(samples)) {
+    const bool is_looked_at = is_line(plan.path[k]) && q.size() == samples.size();
+    if (is_looked_at && is_mixed(samples)) {
       return fmt::format("segment {} of the path has directions and rotations", k + 1);
     }
     for (std::size_t i = 1; i < q.size(); ++i) {
       const std::size_t begin = knot;
-      do {
-        if (++knot >= way.knots.size()) return std::nullopt;
-      } while (!(state_at(way, way.knots[knot]).q - q[i]).isZero(kSame));
-      if (!is_line || (is_splice && begin == 0)) continue;
+      while (!(state_at(way, way.knots[knot]).q - q[i]).isZero(kSame)) {
+        if (++knot < way.knots.size()) continue;
+        if (!is_splice) return std::nullopt;
+        return "a way that is spliced while the arm moves does not come to the second sample";
+      }
+      if (!is_looked_at || (is_splice && begin == 0)) continue;
       PoseResidual left;
       for (std::size_t piece = begin; piece < knot; ++piece) {
         for (const double part : kParts) {

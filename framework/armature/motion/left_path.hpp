@@ -17,8 +17,8 @@ ToolPose pose_at(const RobotModel& model, const JointVector& q, const ToolPose& 
 /// nowhere by more than `may_leave`, and by what the path itself bends between three samples.
 /// Joints that turn far from one sample to the next (an elbow that swings, a wrist near a singular
 /// pose) swing the tool off the line between poses that it keeps. A plan that begins while the arm
-/// moves comes to its path at the second sample and is looked at behind it. A trajectory that has
-/// no knot at the samples is not looked at.
+/// moves must come to its path at the second sample, and is looked at behind it. A trajectory that
+/// has no knot at the samples is not looked at.
 std::optional<std::string> left_path(const RobotModel& model, const Plan& plan,
                                      const PoseResidual& may_leave);
 

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "armature/kinds/trajectory/legs.hpp"
 #include "armature/robot/trajectories/short_trajectory.hpp"
 
 namespace armature {
@@ -47,6 +49,19 @@ double nearest_s(const Trajectory& way, const JointVector& q, double begin, doub
   return (from + to) / 2;
 }
 
+/// A stop behind what neither moves nor lasts is none.
+int stops_of(const std::vector<JointSegment>& segments) {
+  int stops = 0;
+  bool goes = false;
+  for (const JointSegment& segment : segments) {
+    goes = goes || moves(segment) || segment.duration_s;
+    if (!segment.stop_at_end) continue;
+    stops += goes ? 1 : 0;
+    goes = false;
+  }
+  return stops;
+}
+
 WayLegResult no_leg(std::string reason) {
   return tl::unexpected{PlanFailure{.stage = "path", .reason = std::move(reason)}};
 }
@@ -62,7 +77,7 @@ WayLeg Ways::keep(Drive drive) {
 
 WayLegResult Ways::begin(const Plan& plan, bool stepwise) {
   const Trajectory& whole = plan.trajectory;
-  const auto stops = std::ranges::count_if(plan.path, &PathSegment::stop_at_end);
+  const int stops = stops_of(plan.joint_path);
   if (stepwise && stops_behind(whole, 0) < stops) {
     return tl::unexpected{
         PlanFailure{.stage = "trajectory",

@@ -34,8 +34,12 @@ class WaysTest : public ::testing::Test {
       }
     }
   }
-  static Plan planned(const Trajectory& trajectory) {
-    return {.path = Path(3), .trajectory = trajectory};
+  Plan planned(const Trajectory& trajectory) const {
+    Plan plan{.path = Path(3), .joint_path = {}, .trajectory = trajectory};
+    for (int i = 0; i < 3; ++i) {
+      plan.joint_path.push_back({.s = {0, 1}, .q = {kStops[i], kStops[i + 1]}, .duration_s = {}});
+    }
+    return plan;
   }
   /// Drives `leg` until `share` of it.
   void drive(const WayLeg& leg, double share = 1) {
@@ -89,6 +93,23 @@ TEST_F(WaysTest, AStepwiseGoalEndsAtEachOfItsStops) {
   drive(*ask(MotionMode::resume));
   expect_at(3, 0);
   EXPECT_EQ(refusal(MotionMode::resume), "nothing is left of the way");
+}
+
+TEST_F(WaysTest, AStopBehindASegmentThatDoesNotMoveIsNone) {
+  Plan plan = planned(whole_);
+  plan.joint_path.insert(plan.joint_path.begin() + 1,
+                         {.s = {0, 1}, .q = {kStops[1], kStops[1]}, .duration_s = {}});
+  ASSERT_TRUE(ways_.begin(plan, true));
+  plan.joint_path[1].q[1] = kStops[2];
+  EXPECT_FALSE(ways_.begin(plan, true));
+}
+
+TEST_F(WaysTest, AStepwiseGoalWhereTheArmStandsIsDone) {
+  Plan plan{.path = Path(1), .joint_path = {}, .trajectory = hold_at(kStops[0], kBegin, 1)};
+  plan.joint_path.push_back({.s = {0, 1}, .q = {kStops[0], kStops[0]}, .duration_s = {}});
+  const WayLegResult leg = ways_.begin(plan, true);
+  ASSERT_TRUE(leg) << leg.error().reason;
+  EXPECT_EQ(leg->stops_ahead, 0);
 }
 
 TEST_F(WaysTest, AnyOtherGoalIsDrivenInOneGo) {

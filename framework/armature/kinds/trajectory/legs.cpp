@@ -39,14 +39,6 @@ std::string defect(const JointSegment& segment, Eigen::Index dof) {
   return {};
 }
 
-bool moves(const JointSegment& segment) {
-  double way = 0;
-  for (std::size_t i = 1; i < segment.q.size(); ++i) {
-    way += (segment.q[i] - segment.q[i - 1]).cwiseAbs().maxCoeff();
-  }
-  return way > kStillWay;
-}
-
 /// The speeds by which segments are measured: the limits as parts of the smallest one, none so much
 /// larger that what its joint goes alone counted for nothing. Without any limit all joints are as
 /// fast.
@@ -120,6 +112,14 @@ Leg joined(const TrajectoryRequest& request, std::size_t first, std::size_t end)
 }
 
 }  // namespace
+
+bool moves(const JointSegment& segment) {
+  double way = 0;
+  for (std::size_t i = 1; i < segment.q.size(); ++i) {
+    way += (segment.q[i] - segment.q[i - 1]).cwiseAbs().maxCoeff();
+  }
+  return way > kStillWay;
+}
 
 std::string defect_of(const TrajectoryRequest& request) {
   const Eigen::Index dof = request.from.q.size();

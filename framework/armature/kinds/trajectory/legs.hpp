@@ -23,6 +23,9 @@ struct Leg {
   std::optional<double> duration_s;  // the path's own
 };
 
+/// Whether the joints move by more than kStillWay.
+bool moves(const JointSegment& segment);
+
 /// What contradicts itself in a request, or "".
 std::string defect_of(const TrajectoryRequest& request);
 

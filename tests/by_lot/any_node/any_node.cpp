@@ -70,7 +70,7 @@ class AnyNode final : public Component {
   std::array<Input<msg::JointState>, kPorts.size()> inputs_;
   std::array<Output<msg::JointState>, kPorts.size()> outputs_;
   double state_ = 0.5;
-  std::int64_t steps_ = 0;
+  std::uint64_t steps_ = 0;
 };
 
 }  // namespace armature::test::any_node

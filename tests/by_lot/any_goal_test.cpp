@@ -69,6 +69,7 @@ struct AskedArm {
   };
   std::vector<Span> spans_of(const GoalChronicle& told) const;
   const ArmRow& reference_at(const GoalChronicle& told, double time_s) const;
+  const ArmRow* stands_in(const GoalChronicle& told, const Span& span) const;
   double keeps_away_from_s(const GoalChronicle& told, const Span& span) const;
   double nearest_body(const JointVector& q, const GivenZone& zone, bool entered) const;
   Vector3d axis() const { return robot.pointing_axis().value_or(Vector3d::UnitX()); }
@@ -230,6 +231,19 @@ const ArmRow& AskedArm::reference_at(const GoalChronicle& told, double time_s) c
   return behind == told.reference.begin() ? *behind : *std::prev(behind);
 }
 
+constexpr double kSlow = 1e-3;  // [rad/s] or [m/s]: a rest may be between two periods
+
+/// Where the arm stands first on the way of a goal: at its begin, or behind the stop of the motion
+/// before.
+const ArmRow* AskedArm::stands_in(const GoalChronicle& told, const Span& span) const {
+  const ArmRow& begin = reference_at(told, span.from_s);
+  if (begin.rests()) return &begin;
+  const auto stands = std::ranges::find_if(told.reference, [&](const ArmRow& row) {
+    return row.time_s >= span.from_s && row.time_s < span.to_s && row.v.isZero(kSlow);
+  });
+  return stands == told.reference.end() ? nullptr : &*stands;
+}
+
 std::vector<AskedArm::Span> AskedArm::spans_of(const GoalChronicle& told) const {
   std::vector<Span> spans;
   for (const GoalStatusLine& status : told.statuses) {
@@ -256,10 +270,9 @@ void AskedArm::expect_straight(const GoalChronicle& told) const {
   for (const Span& span : spans_of(told)) {
     const GivenGoal& goal = told.goals.at(span.id);
     if (path != "orientations" || (!path_only && goal.poses.size() == 1)) continue;
-    // One that begins while the arm moves comes to the line later.
-    const ArmRow& begin = reference_at(told, span.from_s);
-    if (!begin.rests()) continue;
-    const Eigen::Isometry3d tool = forward_kinematics(robot, begin.q);
+    const ArmRow* begin = stands_in(told, span);
+    if (!begin) continue;
+    const Eigen::Isometry3d tool = forward_kinematics(robot, begin->q);
     ToolPose start{tool.translation(), Eigen::Quaterniond{tool.linear()}};
     if (std::holds_alternative<Direction>(goal.poses.back().orientation)) {
       start.orientation = Direction{tool.linear() * axis()};
@@ -271,7 +284,7 @@ void AskedArm::expect_straight(const GoalChronicle& told) const {
     const double may_m = kLeaves_m + (bends ? kStep_m : 0);
     const double may_rad = kLeaves_rad + (bends ? kStep_rad : 0);
     BlendedWay way{poses, *orientation_interpolator(interpolator)};
-    double next_s = span.from_s;
+    double next_s = begin->time_s;
     for (const ArmRow& row : told.arm) {
       if (row.time_s < next_s || row.time_s >= span.to_s) continue;
       next_s = row.time_s + kEvery_s;
@@ -315,15 +328,12 @@ double AskedArm::nearest_body(const JointVector& q, const GivenZone& zone, bool 
 double AskedArm::keeps_away_from_s(const GoalChronicle& told, const Span& span) const {
   const double begin_s = span.from_s + 0.01 + 3 * period_s;
   if (reference_at(told, span.from_s).rests()) return begin_s;
-  constexpr double kSlow = 1e-3;  // [rad/s] or [m/s]: the rest may be between two periods
-  const ArmRow* rests = nullptr;
-  for (const ArmRow& row : told.reference) {
-    if (row.time_s < span.from_s || row.time_s >= span.to_s) continue;
-    const bool is_slow = row.v.isZero(kSlow);
-    if (!rests && is_slow) rests = &row;
-    if (rests && !is_slow) return std::max(begin_s, rests->time_s + 3 * period_s);
-  }
-  return begin_s;
+  const ArmRow* stands = stands_in(told, span);
+  const auto goes_on = [&](const ArmRow& row) {
+    return stands && row.time_s > stands->time_s && row.time_s < span.to_s && !row.v.isZero(kSlow);
+  };
+  if (std::ranges::none_of(told.reference, goes_on)) return begin_s;
+  return std::max(begin_s, stands->time_s + 3 * period_s);
 }
 
 void AskedArm::expect_zones(const GoalChronicle& told) const {

@@ -126,7 +126,7 @@ void SetPoint::follow(const ServoCommand& command, Time now, double dt) {
     on_stream_[joint] = !found && carried_to_now;  // else the arm is behind the stream
     if (found && !excess_) excess_ = found;
     // A stream that keeps the limits is found elsewhere than it was carried on to, after a loss.
-    const bool is_held_back = found || is_beyond_a_step(i, wanted);
+    const bool is_held_back = found || is_beyond_a_step(i, wanted, rate(i, command));
     rejoins_in_[joint] = age_s > 0 || is_held_back ? 2 : std::max(rejoins_in_[joint] - 1, 0);
     if (is_held_back) {
       move_within_limits(i, wanted);
@@ -173,12 +173,19 @@ std::optional<LimitExcess> SetPoint::jump(int joint, const Step& wanted) const {
                    window);
 }
 
-bool SetPoint::is_beyond_a_step(int joint, const Step& wanted) const {
+double SetPoint::rate(int joint, const ServoCommand& command) const {
+  if (!last_command_ || command.stamp <= last_command_->stamp) return command.v[joint];
+  return (command.q[joint] - last_command_->q[joint]) /
+         to_seconds(command.stamp - last_command_->stamp);
+}
+
+bool SetPoint::is_beyond_a_step(int joint, const Step& wanted, double rate) const {
   const double v = (wanted.q - q_[joint]) / wanted.dt;
   const double to_next_s = 0.5 * (std::min(wanted.dt, timeout_s_) + period_s_);
+  const bool cannot_go_on =
+      sudden(joint, v - wanted.v, to_next_s) && sudden(joint, v - rate, to_next_s);
   return std::abs(v) > model_.max_velocity()[joint] * (1 + kRounding) ||
-         sudden(joint, v - executed_v_[joint], apart(wanted.dt)) ||
-         sudden(joint, v - wanted.v, to_next_s);
+         sudden(joint, v - executed_v_[joint], apart(wanted.dt)) || cannot_go_on;
 }
 
 std::optional<LimitExcess> SetPoint::jump_in_stream(int joint, const ServoCommand& command) const {

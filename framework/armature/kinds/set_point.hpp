@@ -81,9 +81,11 @@ class SetPoint {
   /// The same between two commands, by their own stamps: when either side's thread runs late, the
   /// commands still tell a motion that keeps the limits.
   std::optional<LimitExcess> jump_in_stream(int joint, const ServoCommand& command) const;
-  /// Does the way there ask for more than the joint can in this step, or to have the command's
-  /// velocity in the next one, whoever is to blame?
-  bool is_beyond_a_step(int joint, const Step& wanted) const;
+  /// The mean velocity from the command before to this one.
+  double rate(int joint, const ServoCommand& command) const;
+  /// Does the way there ask for more than the joint can in this step, or in the next one, to have
+  /// the command's velocity or `rate` then, whoever is to blame?
+  bool is_beyond_a_step(int joint, const Step& wanted, double rate) const;
   std::optional<LimitExcess> sudden(int joint, double change, double window) const;
   std::optional<LimitExcess> displaced(int joint, double gap, double window) const;
   void move_within_limits(int joint, const Step& wanted);

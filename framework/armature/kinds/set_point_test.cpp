@@ -290,6 +290,15 @@ TEST(SetPoint, BrakesFromItsSpeedThoughTheStepBeforeWasALateOne) {
   EXPECT_NEAR(arm.velocity()[0], v - 8 * 0.001, 1e-6);
 }
 
+TEST_F(SetPointTest, FollowsPositionsExactlyThatComeWithoutVelocities) {
+  for (int k = 1; k <= 3000; ++k) {
+    const double wanted = 0.5 * (1 - std::cos(0.002 * k));  // up to 1 rad/s and 2 rad/s2
+    step(command(wanted));
+    ASSERT_NEAR(arm_.position()[0], wanted, 1e-12) << k;
+  }
+  EXPECT_TRUE(arm_.why().empty());
+}
+
 TEST(SetPoint, ComesToRestWithinItsLimitsWhereverOneStepOnTheWayIsALateOne) {
   const RobotModel model = one_joint(0.5, 5);
   constexpr double kPeriod_s = 0.001;

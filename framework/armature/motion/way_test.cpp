@@ -99,9 +99,7 @@ TEST_F(WaysTest, AStopBehindASegmentThatDoesNotMoveIsNone) {
   Plan plan = planned(whole_);
   plan.joint_path.insert(plan.joint_path.begin() + 1,
                          {.s = {0, 1}, .q = {kStops[1], kStops[1]}, .duration_s = {}});
-  ASSERT_TRUE(ways_.begin(plan, true));
-  plan.joint_path[1].q[1] = kStops[2];
-  EXPECT_FALSE(ways_.begin(plan, true));
+  EXPECT_TRUE(ways_.begin(plan, true));
 }
 
 TEST_F(WaysTest, AStepwiseGoalWhereTheArmStandsIsDone) {
@@ -198,7 +196,7 @@ TEST_F(WaysTest, APauseWhileItSpeedsUpDoesNotLetItSpeedUpFirst) {
 TEST_F(WaysTest, ATrajectoryThatRestsLessOftenThanItsPathWouldPassAStop) {
   Plan plan = planned(whole_);
   EXPECT_TRUE(ways_.begin(plan, true));
-  plan.path.emplace_back();
+  plan.joint_path.push_back({.s = {0, 1}, .q = {kStops[3], kStops[0]}, .duration_s = {}});
   EXPECT_TRUE(ways_.begin(plan, false));
   const WayLegResult leg = ways_.begin(plan, true);
   ASSERT_FALSE(leg);

@@ -364,10 +364,10 @@ TEST_F(DicomSeries, OfALongFileIsRefusedBeforeItIsRead) {
 TEST_F(DicomSeries, OfManyMixedOnesTellsTheFirstWithWhatATerminalShows) {
   for (int i = 0; i < 8; ++i) {
     Slice slice = at(i, 1.25 * i);
-    slice.series = fmt::format("{}\x1b[31m{}", i, std::string(90, '1'));
+    slice.series = fmt::format("{}\x1b[31m{}", i, std::string(230, '1'));
     write(slice);
   }
-  const std::string first = "?[31m" + std::string(58, '1') + "... (1 files)";
+  const std::string first = "?[31m" + std::string(194, '1') + "... (1 files)";
   EXPECT_EQ(refusal(), "': 8 series are mixed: 0" + first + " 1" + first + " 2" + first + " 3" +
                            first + " 4" + first + " and 3 more");
 }

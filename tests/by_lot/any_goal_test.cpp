@@ -269,7 +269,8 @@ void AskedArm::expect_straight(const GoalChronicle& told) const {
   constexpr double kLeaves_m = 1.1 * 0.0005, kLeaves_rad = 1.1 * 0.25 * M_PI / 180;
   for (const Span& span : spans_of(told)) {
     const GivenGoal& goal = told.goals.at(span.id);
-    if (path != "orientations" || (!path_only && goal.poses.size() == 1)) continue;
+    const bool is_bound = path_only || goal.poses.size() > 1 || !goal.zones.empty();
+    if (path != "orientations" || !is_bound) continue;
     const ArmRow* begin = stands_in(told, span);
     if (!begin) continue;
     const Eigen::Isometry3d tool = forward_kinematics(robot, begin->q);

@@ -52,6 +52,24 @@ TEST(GoalLinks, AWayBesideTheZoneAndARobotWithoutBodiesGo) {
   EXPECT_TRUE(Gantry{}.planner(keep(0.01)).plan(past_a_vessel(), rest_at(0, 0, 0), kGoStart));
 }
 
+/// Nobody else keeps the tool away from a zone.
+TEST(GoalLinks, AGoalWithZonesThatThePathPluginRefusesDoesNotGoStraight) {
+  class KnowsNoZones final : public PathPlanner {
+   public:
+    Expected<Path> plan(const PathRequest& request) const override {
+      if (!request.forbidden.empty()) return refuse("this path knows no zones");
+      return test::LinePath{}.plan(request);
+    }
+  } path;
+  const Gantry gantry;
+  const PlanStages stages{path, gantry.ik, gantry.select, gantry.trajectory};
+  GoalPlanner planner{gantry.model, stages, gantry.limits, keep(0.01)};
+  const auto plan = planner.plan(past_a_vessel(), rest_at(0, 0, 0), kGoStart);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().reason, "this path knows no zones");
+  EXPECT_TRUE(planner.plan(goal_at(2, 1, 0, 0), rest_at(0, 0, 0), kGoStart));
+}
+
 /// A second branch, which ends beside the goal.
 class TwoBranches final : public test::GantryIk {
  public:

@@ -178,7 +178,7 @@ tl::expected<JointVector, PlanFailure> GoalPlanner::solve(const ToolPose& pose,
 }
 
 bool GoalPlanner::is_bound_to_path(const MotionGoal& goal) const {
-  return options_.path_only || goal.stepwise || !goal.through.empty();
+  return options_.path_only || goal.stepwise || !goal.through.empty() || !goal.forbidden.empty();
 }
 
 PlanResult GoalPlanner::plan(const MotionGoal& goal, const JointState& from, Time start) {

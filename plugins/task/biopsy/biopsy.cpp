@@ -91,7 +91,10 @@ void Biopsy::update(Time now) {
     case Step::entry:
     case Step::insertion: set_out(); break;
     case Step::withdrawal:
-      if (now - at_target_since_ >= seconds(parameters_.dwell)) retrace(Heading::out);
+      // One step at least, in which it says that it is there.
+      if (now > at_target_since_ && now - at_target_since_ >= seconds(parameters_.dwell)) {
+        retrace(Heading::out);
+      }
       break;
   }
 }

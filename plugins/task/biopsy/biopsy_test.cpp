@@ -116,6 +116,16 @@ TEST_F(BiopsyTest, GoesFromThePlanToTheTargetStopByStopAndOutAgain) {
   expect_no_goal();
 }
 
+TEST_F(BiopsyTest, SaysThatItIsAtItsTargetHoweverShortItStays) {
+  task_.emplace(Parameters{.dwell = 0, .auto_confirm = true}, needle_arm());
+  register_head();
+  for (const int stops_ahead : {2, 1, 0}) reach(stops_ahead);
+  expect_no_goal();
+  EXPECT_EQ(task_->phase(), Phase::at_target);
+  now_ = at(1.001);
+  EXPECT_EQ(sent().mode, MotionMode::retrace);
+}
+
 TEST_F(BiopsyTest, AWayThatBeginsOnItsLineHasAStopLess) {
   register_head();
   EXPECT_EQ(task_->procedure().step(), 1u);

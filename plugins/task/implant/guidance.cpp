@@ -42,7 +42,7 @@ Expected<void> Guidance::see_plan(const std::vector<ToolPose>& sites,
   }
   if (const auto wrong = defect(sites_, parameters_)) return refuse("the plan: " + *wrong);
   if (implants.empty()) return {};
-  if (const auto wrong = defect(implants, sites.size(), parameters_.depth)) {
+  if (const auto wrong = defect(implants, sites_, parameters_)) {
     return refuse("the plan: " + *wrong);
   }
   if (step_ != Step::pivot) {

@@ -55,11 +55,38 @@ std::vector<Pass> site_by_site(const SiteWay& way) {
   return passes;
 }
 
-/// [m] From axis to axis of two bores.
-double distance(const Isometry3d& image_T_site, const Isometry3d& image_T_other, double depth_m) {
-  const Eigen::Vector3d mouth{0, 0, -depth_m};
-  return clearance(image_T_site.translation(), image_T_site * mouth,
-                   {.name = "", .from = image_T_other.translation(), .to = image_T_other * mouth});
+/// The axis of what a site is filled with, from its bottom up.
+ForbiddenZone axis_of(const Isometry3d& image_T_site, double length_m) {
+  return {.name = "",
+          .from = image_T_site.translation(),
+          .to = image_T_site * Eigen::Vector3d{0, 0, -length_m}};
+}
+
+/// [m] From axis to axis.
+double distance(const ForbiddenZone& axis, const ForbiddenZone& other) {
+  return clearance(axis.from, axis.to, other);
+}
+
+/// The drill goes straight from above a site to above the next one: what is wrong where another
+/// site's bore lies between.
+std::optional<std::string> crossed_bore(const std::vector<Isometry3d>& image_T_sites,
+                                        const Parameters& parameters) {
+  const Eigen::Vector3d up{0, 0, -parameters.stand_off};
+  for (std::size_t i = 0; i + 1 < image_T_sites.size(); ++i) {
+    const ForbiddenZone way{
+        .name = "", .from = image_T_sites[i] * up, .to = image_T_sites[i + 1] * up};
+    for (std::size_t k = 0; k < image_T_sites.size(); ++k) {
+      if (k == i || k == i + 1) continue;
+      const double apart_m = distance(way, axis_of(image_T_sites[k], parameters.depth));
+      if (apart_m >= parameters.min_site_distance) continue;
+      return fmt::format(
+          "on its way from above site {} to above site {} the drill comes as near as {:.2f} mm to "
+          "the bore of site {}; 'min_site_distance_mm' is {:g}; drill them in another order, or "
+          "raise 'stand_off_mm'",
+          i + 1, i + 2, 1e3 * apart_m, k + 1, 1e3 * parameters.min_site_distance);
+    }
+  }
+  return std::nullopt;
 }
 
 /// Into which the tool is on its way, or out of which.
@@ -82,7 +109,8 @@ std::optional<std::string> defect(const std::vector<Isometry3d>& image_T_sites,
                                   const Parameters& parameters) {
   for (std::size_t i = 0; i < image_T_sites.size(); ++i) {
     for (std::size_t k = i + 1; k < image_T_sites.size(); ++k) {
-      const double apart_m = distance(image_T_sites[i], image_T_sites[k], parameters.depth);
+      const double apart_m = distance(axis_of(image_T_sites[i], parameters.depth),
+                                      axis_of(image_T_sites[k], parameters.depth));
       if (apart_m >= parameters.min_site_distance) continue;
       return fmt::format(
           "the bores of sites {} and {} come as near as {:.2f} mm to each other, axis to axis; "
@@ -90,13 +118,15 @@ std::optional<std::string> defect(const std::vector<Isometry3d>& image_T_sites,
           i + 1, k + 1, 1e3 * apart_m, 1e3 * parameters.min_site_distance);
     }
   }
-  return std::nullopt;
+  return crossed_bore(image_T_sites, parameters);
 }
 
-std::optional<std::string> defect(const std::vector<PlannedImplant>& implants, std::size_t sites,
-                                  double depth_m) {
-  if (implants.size() != sites) {
-    return fmt::format("{} implants for {} sites", implants.size(), sites);
+std::optional<std::string> defect(const std::vector<PlannedImplant>& implants,
+                                  const std::vector<Isometry3d>& image_T_sites,
+                                  const Parameters& parameters) {
+  const double depth_m = parameters.depth;
+  if (implants.size() != image_T_sites.size()) {
+    return fmt::format("{} implants for {} sites", implants.size(), image_T_sites.size());
   }
   for (std::size_t i = 0; i < implants.size(); ++i) {
     const PlannedImplant& implant = implants[i];
@@ -114,6 +144,20 @@ std::optional<std::string> defect(const std::vector<PlannedImplant>& implants, s
     }
     if (!(implant.pitch_m >= kMinPitch_m && implant.pitch_m <= implant.length_m)) {
       return wrong("its pitch", implant.pitch_m, "from 0.1 to its length are wanted");
+    }
+  }
+  const auto filled = [&](std::size_t i) {
+    return axis_of(image_T_sites[i],
+                   std::max(depth_m, implants[i].above_bottom_m + implants[i].length_m));
+  };
+  for (std::size_t i = 0; i < implants.size(); ++i) {
+    for (std::size_t k = i + 1; k < implants.size(); ++k) {
+      const double apart_m = distance(filled(i), filled(k));
+      if (apart_m >= parameters.min_site_distance) continue;
+      return fmt::format(
+          "implants {} and {} come as near as {:.2f} mm to each other, axis to axis, with what "
+          "they leave above their bores; 'min_site_distance_mm' is {:g}",
+          i + 1, k + 1, 1e3 * apart_m, 1e3 * parameters.min_site_distance);
     }
   }
   return std::nullopt;

@@ -21,14 +21,16 @@ struct PlannedImplant {
 };
 
 /// What is wrong with how the sites of a plan lie to each other, or nullopt. Bores reach from the
-/// bottom `depth` up; none may come nearer to another, axis to axis, than `min_site_distance`.
+/// bottom `depth` up; none may come nearer to another, axis to axis, than `min_site_distance`, and
+/// neither may the drill on its way from above a site to above the next one.
 std::optional<std::string> defect(const std::vector<Eigen::Isometry3d>& image_T_sites,
                                   const Parameters& parameters);
 
-/// What is wrong with the implants of a plan for so many sites, in bores of this depth [m]; or
-/// nullopt.
-std::optional<std::string> defect(const std::vector<PlannedImplant>& implants, std::size_t sites,
-                                  double depth_m);
+/// What is wrong with the implants of a plan, or nullopt. They stand above their bores, and there,
+/// too, none may come nearer to another than `min_site_distance`.
+std::optional<std::string> defect(const std::vector<PlannedImplant>& implants,
+                                  const std::vector<Eigen::Isometry3d>& image_T_sites,
+                                  const Parameters& parameters);
 
 /// One motion of the tool.
 struct Pass {

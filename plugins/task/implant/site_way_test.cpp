@@ -165,6 +165,32 @@ TEST_F(SiteWayTest, BoresThatComeTooNearAreToldWithBothSitesAndTheDistance) {
             "'min_site_distance_mm' is 7");
 }
 
+TEST_F(SiteWayTest, ABoreOnTheWayFromOneSiteToTheNextIsToldWithTheSites) {
+  const auto site = [](double x, double z) { return Isometry3d{Eigen::Translation3d{x, 0, z}}; };
+  const Parameters parameters{.stand_off = 0.024, .depth = 0.012, .min_site_distance = 0.007};
+  EXPECT_EQ(defect({site(0, 0.012), site(0.03, 0.012), site(0.015, -0.002)}, parameters),
+            "on its way from above site 1 to above site 2 the drill comes as near as 0.00 mm to "
+            "the bore of site 3; 'min_site_distance_mm' is 7; drill them in another order, or "
+            "raise 'stand_off_mm'");
+  EXPECT_EQ(defect({site(0, 0.012), site(0.015, -0.002), site(0.03, 0.012)}, parameters),
+            std::nullopt);
+}
+
+TEST_F(SiteWayTest, ImplantsThatMeetAboveTheirBoresAreToldWithTheDistance) {
+  const Isometry3d upright = Isometry3d::Identity();
+  const Isometry3d leaning =
+      Eigen::Translation3d{0.008, 0, 0} * Eigen::AngleAxisd{0.1, Vector3d::UnitY()};
+  const Parameters parameters{.depth = 0.009, .min_site_distance = 0.007};
+  const auto told = [&](double length_m) {
+    const PlannedImplant implant{.above_bottom_m = 0.0005, .length_m = length_m, .pitch_m = 0.001};
+    return defect({implant, implant}, {upright, leaning}, parameters);
+  };
+  EXPECT_EQ(told(0.009), std::nullopt);
+  EXPECT_EQ(told(0.02),
+            "implants 1 and 2 come as near as 5.95 mm to each other, axis to axis, with what they "
+            "leave above their bores; 'min_site_distance_mm' is 7");
+}
+
 TEST_F(SiteWayTest, OneSiteIsEnough) {
   sites_.resize(1);
   const SiteWay way = drilling_way(chain_, file_tool_, sites_, {.auto_confirm = true});

@@ -88,6 +88,11 @@ TEST_F(Recorded, ARunIsInTheFileWithWhatItWasMadeFrom) {
     place->second = message->publish_time;
   }
   for (const auto& [id, channel] : reader.channels()) {
+    const auto qos = channel.metadata.find("qos");
+    const std::string told = qos == channel.metadata.end() ? "" : qos->second;
+    if (channel.topic == "/rosout") EXPECT_EQ(told, "log");
+    if (channel.topic == "/tf_static") EXPECT_EQ(told, "latched");
+    if (channel.topic == kJoints) EXPECT_EQ(told, "");
     EXPECT_EQ(reader.schemas().at(channel.schema_id).encoding, "ros2msg") << channel.topic;
   }
 }

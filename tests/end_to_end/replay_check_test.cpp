@@ -437,6 +437,7 @@ TEST_F(Replay, AnotherProcessorIsRefusedUnlessLastBitsMayDiffer) {
   const CommandResult allowed =
       run_command({armature(), "replay", file(), "--check", "--allow-ulp"}, {}, kEnough);
   EXPECT_THAT(allowed.out, HasSubstr("identical as far as it was compared: "));
+  EXPECT_TRUE(allowed.out.ends_with('\n'));
   EXPECT_THAT(allowed.err, HasSubstr(file())) << "a byte has been changed";
 }
 

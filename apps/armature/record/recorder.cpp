@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/recorder.hpp"
 
+#include <utility>
+
+#include "armature/bus/qos.hpp"
 #include "armature/messages/armature_msgs.hpp"
+#include "armature/messages/rcl_interfaces.hpp"
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 
@@ -16,15 +20,21 @@ void Recorder::add(const std::string& topic, const ObservedSample& sample) {
   const Time now = SystemClock{}.now();
   const std::scoped_lock lock{mutex_};
   if (sample.lost_before > 0) lost_[topic] += sample.lost_before;
-  Channel& channel = channel_of(topic, sample.type);
+  Channel& channel = channel_of(topic, sample);
   queue_.write(channel.id, ++channel.messages, now, sample.source,
                {sample.cdr.begin(), sample.cdr.end()});
   if (sample.type == message_type<msg::DeploymentDescription>().dds_name) attach_new(sample, now);
 }
 
-Recorder::Channel& Recorder::channel_of(const std::string& topic, const std::string& type) {
-  const auto [place, is_new] = channels_.try_emplace({topic, type});
-  if (is_new) place->second.id = queue_.add_channel(topic, type);
+Recorder::Channel& Recorder::channel_of(const std::string& topic, const ObservedSample& sample) {
+  const auto [place, is_new] = channels_.try_emplace({topic, sample.type});
+  if (!is_new) return place->second;
+  std::map<std::string, std::string> metadata;
+  if (sample.writer && sample.writer->transient_local) {
+    const bool is_log = sample.type == message_type<msg::Log>().dds_name;
+    metadata["qos"] = to_string(is_log ? QosProfile::log : QosProfile::latched);
+  }
+  place->second.id = queue_.add_channel(topic, sample.type, std::move(metadata));
   return place->second;
 }
 

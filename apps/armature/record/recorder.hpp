@@ -48,7 +48,7 @@ class Recorder {
     std::uint16_t id = 0;
     std::uint32_t messages = 0;
   };
-  Channel& channel_of(const std::string& topic, const std::string& type);
+  Channel& channel_of(const std::string& topic, const ObservedSample& sample);
   void attach_new(const ObservedSample& description, Time arrived);
 
   McapQueue queue_;

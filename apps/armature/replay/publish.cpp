@@ -226,7 +226,10 @@ int publish_recording(const PublishOptions& options) {
     fmt::print(stderr, "armature: '{}': {}\n", options.file.string(), terminal_text(problem));
   }
   if (player.messages() == 0 && player.left_out().empty() && player.broken().empty() && !left()) {
-    fmt::print(stderr, "armature: '{}' has no messages to be published\n", options.file.string());
+    fmt::print(stderr, "armature: {}\n",
+               player.is_over()
+                   ? "the time was over before the first message came up"
+                   : fmt::format("'{}' has no messages to be published", options.file.string()));
   }
   if (options.json) {
     print_out("{}\n", json_text(nlohmann::ordered_json{{"messages", player.messages()},

@@ -42,7 +42,8 @@ void add_monitor_address(CLI::App& verb, MonitorAddress& server) {
   verb.add_option("--origin", server.origins,
                   "let pages from there connect, too: http://localhost:8080")
       ->allow_extra_args(false);
-  verb.add_option("--token", server.token, "what clients must say: ws://HOST:PORT/?token=...");
+  verb.add_option("--token", server.token, "what clients must say: ws://HOST:PORT/?token=...")
+      ->check(no_token);
 }
 
 void add_watch(CLI::App& verb, WatchOptions& options) {

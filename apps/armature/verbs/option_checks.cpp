@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "verbs/option_checks.hpp"
 
+#include <fmt/format.h>
+
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <regex>
 #include <system_error>
 
 #include "armature/bus/network.hpp"
 #include "armature/config/problems.hpp"
 #include "armature/values/utf8.hpp"
+#include "armature/web/web_server.hpp"
 #include "terminal_text.hpp"
 
 namespace armature {
@@ -38,6 +42,18 @@ std::string wrong_number(const std::string& text) {
 
 std::string no_name(const std::string& text) {
   return text.empty() ? "names nothing: is a variable of the shell empty?" : "";
+}
+
+std::string no_token(const std::string& text) {
+  if (text.size() <= WebServer::kMaxTokenBytes) return "";
+  return fmt::format("has {} bytes; at most {} are taken", text.size(), WebServer::kMaxTokenBytes);
+}
+
+std::string no_prefix(const std::string& text) {
+  static const std::regex kNames{"(/[A-Za-z_][A-Za-z0-9_]*)+"};
+  if (std::regex_match(text, kNames)) return "";
+  return "must be names behind '/', of letters, digits and _, as in /replay, not '" +
+         terminal_text(text) + "'";
 }
 
 std::string not_positive(const std::string& text) {

@@ -25,6 +25,10 @@ std::string no_pattern(const std::string& text);
 std::string no_file(const std::string& text);
 /// Empty, as a variable of the shell is that nobody set.
 std::string no_name(const std::string& text);
+/// Longer than what a client of the web server can say.
+std::string no_token(const std::string& text);
+/// No beginning of a ROS 2 topic's name.
+std::string no_prefix(const std::string& text);
 /// Bytes that are no UTF-8: what is sent on topics is text.
 std::string no_text(const std::string& text);
 /// Not the 64 hexadecimal digits of a SHA-256, in small letters.

@@ -130,8 +130,8 @@ void add_replay(CLI::App& app, Action& action) {
     if (is_publishing && options->allow_ulp) {
       throw CLI::ValidationError("--allow-ulp", "nothing is compared without --check or --set");
     }
-    if (!publish->prefix.starts_with('/') || publish->prefix.size() < 2) {
-      throw CLI::ValidationError("--prefix", "it begins with '/' and a name follows: /replay");
+    if (const std::string wrong = no_prefix(publish->prefix); !wrong.empty()) {
+      throw CLI::ValidationError("--prefix", wrong);
     }
     action = [=] {
       if (publish->monitor) return show_recording(*publish);

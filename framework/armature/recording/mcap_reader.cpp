@@ -343,7 +343,11 @@ void McapReader::check_end() {
   if (*crc != 0 && *crc != checksum_of(summed)) note("the checksum of its summary is wrong");
   const auto behind = file_.subspan(position_);
   if (!mcap::begins_with_magic(behind)) return note("its last bytes are missing");
-  if (behind.size() > mcap::kMagic.size()) note("something stands behind its end");
+  if (behind.size() == mcap::kMagic.size()) return;
+  const auto more = behind.subspan(mcap::kMagic.size());
+  note(fmt::format("{} of {} bytes stands behind its end, at byte {}, and is not read",
+                   mcap::begins_with_magic(more) ? "another recording" : "something", more.size(),
+                   position_ + mcap::kMagic.size()));
 }
 
 /// Where nothing else is wrong: a chunk that was passed over is missed here, too.

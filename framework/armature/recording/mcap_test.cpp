@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -229,12 +231,31 @@ TEST_P(Mcap, WithADamagedChunkThatTellsItsChannelsKnowsThemFromItsSummary) {
   }
 }
 
+TEST(McapWriter, TellsOfAPipeThatNobodyReadsAndDoesNotWait) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  try {
+    McapWriter{pipe, {}};
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_EQ(error.what(), "cannot write '" + pipe + "': it is a pipe that nobody reads");
+  }
+}
+
 TEST_P(Mcap, WithSomethingBehindItsEndIsNotWhole) {
   write();
-  replace(bytes() + "more");
-  McapReader reader{file_};
-  EXPECT_EQ(read_whole_messages(reader), kMessages);
-  EXPECT_EQ(reader.problems(), std::vector<std::string>{"something stands behind its end"});
+  const std::string whole = bytes();
+  for (const auto& [more, what] :
+       {std::pair{std::string{"more"}, "something"}, {whole, "another recording"}}) {
+    replace(whole + more);
+    McapReader reader{file_};
+    EXPECT_EQ(read_whole_messages(reader), kMessages);
+    EXPECT_THAT(reader.problems(),
+                testing::ElementsAre(fmt::format("{} of {} bytes stands behind its end, at byte "
+                                                 "{}, and is not read",
+                                                 what, more.size(), whole.size())));
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(, Mcap, testing::Bool(), [](const auto& test) {

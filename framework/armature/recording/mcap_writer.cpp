@@ -147,8 +147,16 @@ void McapWriter::create() {
   const std::filesystem::path named = file_;
   const int if_there = options_.keeps_older ? O_EXCL : 0;
   for (int number = 2; number <= kMostOfOneName; ++number) {
-    descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | if_there | O_CLOEXEC, 0600);
-    if (descriptor_ >= 0) return;
+    // A pipe that nobody reads would be waited for, whatever anybody says meanwhile.
+    descriptor_ = open(file_.c_str(), O_WRONLY | O_CREAT | if_there | O_CLOEXEC | O_NONBLOCK, 0600);
+    if (descriptor_ >= 0) {
+      fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) & ~O_NONBLOCK);
+      return;
+    }
+    if (errno == ENXIO) {
+      throw std::runtime_error(
+          fmt::format("cannot write '{}': it is a pipe that nobody reads", file_.string()));
+    }
     if (errno != EEXIST) break;
     file_ = named;
     file_.replace_filename(

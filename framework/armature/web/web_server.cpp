@@ -176,7 +176,8 @@ class WebServer::Impl {
   }
 
   Visitor visitor_of(lws* connection) const {
-    std::array<char, 512> argument{}, address{};
+    std::array<char, kMaxTokenBytes + 16> argument{};
+    std::array<char, 512> address{};
     const char* token = lws_get_urlarg_by_name(connection, "token=", argument.data(),
                                                static_cast<int>(argument.size()));
     const char* peer = lws_get_peer_simple(connection, address.data(), address.size());

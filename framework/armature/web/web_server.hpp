@@ -28,6 +28,7 @@ class WebServer {
     std::string type = "text/plain; charset=utf-8";
     std::string security_policy = "default-src 'none'";  // Content-Security-Policy
   };
+  static constexpr std::size_t kMaxTokenBytes = 1000;
   struct Options {
     std::string address = "127.0.0.1";  // IPv4, that it is bound to
     int port = 0;                       // 0: any that is free
@@ -35,7 +36,7 @@ class WebServer {
     /// Pages that may connect, beside those of this address and port: "https://app.foxglove.dev".
     std::vector<std::string> origins;
     std::string origin_option = "--origin";  // what lets another one in, for people
-    std::string token;                       // empty: none is asked for
+    std::string token;                       // empty: none is asked for; at most kMaxTokenBytes
     std::size_t queue_bytes = 16U << 20;     // of all that waits for a client to read it
     Page page;                               // for whoever comes with a browser
   };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <arpa/inet.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
@@ -35,6 +36,11 @@ std::string token_of(const std::string& file, const Params& params) {
   if (token.find_first_of(" \t\r") != std::string::npos || token.empty()) {
     params.refuse({"token_file"}, "the first line of " + config::in_quotes(file) +
                                       " is no token: it is empty, or has blanks");
+  }
+  if (token.size() > WebServer::kMaxTokenBytes) {
+    params.refuse({"token_file"},
+                  fmt::format("the token of {} has {} bytes; at most {} are taken",
+                              config::in_quotes(file), token.size(), WebServer::kMaxTokenBytes));
   }
   return token;
 }

@@ -68,6 +68,8 @@ TEST(WebBridgeParameters, RefusesATokenFileWithoutAToken) {
               EndsWith("'/nowhere/monitor.token': No such file or directory"));
   EXPECT_THAT(refusal_with("token_file: " + TokenFile{"\nsecret\n"}.path()),
               EndsWith("is no token: it is empty, or has blanks"));
+  EXPECT_THAT(refusal_with("token_file: " + TokenFile{std::string(1001, 'a')}.path()),
+              EndsWith("has 1001 bytes; at most 1000 are taken"));
   EXPECT_THAT(refusal_with("token_file: " + TokenFile{"my secret\n"}.path()),
               EndsWith("is no token: it is empty, or has blanks"));
 }

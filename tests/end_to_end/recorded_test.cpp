@@ -87,14 +87,14 @@ TEST_F(Recorded, ARunIsInTheFileWithWhatItWasMadeFrom) {
     EXPECT_TRUE(is_first || message->publish_time > place->second) << message->channel->topic;
     place->second = message->publish_time;
   }
+  std::map<std::string, std::string> qos;
   for (const auto& [id, channel] : reader.channels()) {
-    const auto qos = channel.metadata.find("qos");
-    const std::string told = qos == channel.metadata.end() ? "" : qos->second;
-    if (channel.topic == "/rosout") EXPECT_EQ(told, "log");
-    if (channel.topic == "/tf_static") EXPECT_EQ(told, "latched");
-    if (channel.topic == kJoints) EXPECT_EQ(told, "");
     EXPECT_EQ(reader.schemas().at(channel.schema_id).encoding, "ros2msg") << channel.topic;
+    if (channel.metadata.contains("qos")) qos[channel.topic] = channel.metadata.at("qos");
   }
+  EXPECT_EQ(qos["/rosout"], "log");
+  EXPECT_EQ(qos["/tf_static"], "latched");
+  EXPECT_FALSE(qos.contains(kJoints));
 }
 
 TEST_F(Recorded, OnlyWhatIsAskedForIsInTheFile) {

@@ -155,8 +155,8 @@ std::optional<std::string> defect(const std::vector<PlannedImplant>& implants,
       const double apart_m = distance(filled(i), filled(k));
       if (apart_m >= parameters.min_site_distance) continue;
       return fmt::format(
-          "implants {} and {} come as near as {:.2f} mm to each other, axis to axis, with what "
-          "they leave above their bores; 'min_site_distance_mm' is {:g}",
+          "implants {} and {}, which stand above their bores, come as near as {:.2f} mm to each "
+          "other, axis to axis; 'min_site_distance_mm' is {:g}",
           i + 1, k + 1, 1e3 * apart_m, 1e3 * parameters.min_site_distance);
     }
   }

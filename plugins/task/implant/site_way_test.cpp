@@ -186,9 +186,10 @@ TEST_F(SiteWayTest, ImplantsThatMeetAboveTheirBoresAreToldWithTheDistance) {
     return defect({implant, implant}, {upright, leaning}, parameters);
   };
   EXPECT_EQ(told(0.009), std::nullopt);
-  EXPECT_EQ(told(0.02),
-            "implants 1 and 2 come as near as 5.95 mm to each other, axis to axis, with what they "
-            "leave above their bores; 'min_site_distance_mm' is 7");
+  EXPECT_EQ(
+      told(0.02),
+      "implants 1 and 2, which stand above their bores, come as near as 5.95 mm to each other, "
+      "axis to axis; 'min_site_distance_mm' is 7");
 }
 
 TEST_F(SiteWayTest, OneSiteIsEnough) {

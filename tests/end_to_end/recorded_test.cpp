@@ -92,7 +92,6 @@ TEST_F(Recorded, ARunIsInTheFileWithWhatItWasMadeFrom) {
     EXPECT_EQ(reader.schemas().at(channel.schema_id).encoding, "ros2msg") << channel.topic;
     if (channel.metadata.contains("qos")) qos[channel.topic] = channel.metadata.at("qos");
   }
-  EXPECT_EQ(qos["/rosout"], "log");
   EXPECT_EQ(qos["/tf_static"], "latched");
   EXPECT_FALSE(qos.contains(kJoints));
 }

@@ -38,6 +38,10 @@ Overheard overhear(std::vector<std::string> settings, bool refused) {
   if (refused) {
     EXPECT_TRUE(pulse.wait_for_err("was refused on '/pulse/beat'", seconds{60})) << pulse.err();
   }
+  // Its own beat writes this, from when all have met on.
+  run_command(
+      {armature(), "topic", "echo", "/pulse/order", "-n", "1", "--domain", std::to_string(domain)},
+      {}, seconds{60});
   std::this_thread::sleep_for(seconds{1});  // a hundred beats of the talker
   pulse.signal(SIGINT);
   Overheard overheard{.run = {.command = pulse.finish(seconds{20}), .report = {}},

@@ -179,10 +179,9 @@ struct Process {
   RunOptions::Origin origin;
 };
 
-/// The name of a run: all of its processes have it, and no other run on any machine.
-std::string new_run(const RunOptions::Origin& origin) {
-  return fmt::format("{:x}-{:x}", origin.clock_offset.count(), origin.start.ns);
-}
+/// The name of a run: all of its processes have it, and no other run. Where the clock is simulated
+/// all begin at one time.
+std::string new_run() { return fmt::format("{:x}-{:x}", SystemClock{}.now().ns, getpid()); }
 
 void tell_network(const Network& network, Console& console) {
   if (to_text(network) == to_text(Network{})) return;
@@ -354,7 +353,7 @@ int run(RunOptions options) {
   end_signals::stop_in_order();
   if (is_child && options.control >= 0) prctl(PR_SET_PDEATHSIG, 0);
   if (!options.origin) process.origin.start = deployment.clock().now();
-  if (!is_child) process.origin.run = new_run(process.origin);
+  if (!is_child) process.origin.run = new_run();
   console.start(deployment.clock(), process.origin.start);
   return is_child ? run_other(options, process, deployment, plugins, console, *child_watch, end)
                   : run_main(options, process, deployment, plugins, console, end);

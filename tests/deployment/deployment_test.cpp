@@ -175,11 +175,11 @@ TEST_F(DeploymentTest, WhoIsUnwellAtTheEndIsToldAndIsTheStatusWhereNoGoalsJudge)
   EXPECT_NE(unjudged.json.find(R"("reason":"ear: no young beat")"), std::string::npos)
       << unjudged.json;
   EXPECT_NE(unjudged.json.find(R"("unwell":["ear: no young beat"])"), std::string::npos);
-  EXPECT_NE(unjudged.table.find("unwell: ear: no young beat"), std::string::npos) << unjudged.table;
+  EXPECT_NE(unjudged.table.find("unwell: <ear: no young beat>"), std::string::npos) << unjudged.table;
 
   const Told finished = run(three, shorter);
   EXPECT_EQ(finished.status, "ok") << "a scenario that came to its end is judged by itself";
-  EXPECT_NE(finished.table.find("unwell: ear: no young beat"), std::string::npos);
+  EXPECT_NE(finished.table.find("unwell: <ear: no young beat>"), std::string::npos);
   EXPECT_EQ(run(three, shorter, "goals: {delay_s: 1}\n").status, "ok");
 
   const Told well = run("", longer, limit);
@@ -213,7 +213,7 @@ TEST_F(DeploymentTest, WhatCutARunOffIsToldInTableAndJson) {
   EXPECT_EQ(cut.status, "ok") << "nothing says that it was to do more";
   EXPECT_NE(cut.json.find(R"("ended_by":"the time limit of 0.25 s is over")"), std::string::npos)
       << cut.json;
-  EXPECT_NE(cut.table.find("the time limit of 0.25 s is over\n"), std::string::npos) << cut.table;
+  EXPECT_NE(cut.table.find("<the time limit of 0.25 s is over>\n"), std::string::npos) << cut.table;
   EXPECT_EQ(run("", "").json.find("ended_by"), std::string::npos) << "it came to its end";
 }
 

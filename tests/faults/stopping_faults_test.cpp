@@ -332,9 +332,11 @@ TEST_F(PulledPlug, LinesThatNobodyReadsDelayNeitherTheArmNorItsEnd) {
 }
 
 TEST_F(PulledPlug, LinesThatWereDroppedAreCountedAsSoonAsSomebodyReads) {
+  // The reader stands still for 8 s from when the arm moves: pipe and queue are full then.
   Command run{{"/bin/bash", "-c",
                "(" + line({"components.arm.params.talks=true"}) + ") 2>&1 >" + folder_ +
-                   "/out | (sleep 5; cat)"},
+                   "/out | (while read -r told; do [[ $told != *moves* ]] || break; done; "
+                   "sleep 8; cat)"},
               options_};
   EXPECT_TRUE(run.wait_for_out(" lines are missing here: nobody read them in time", kWithin));
   kill(std::stoi(file("pid")), SIGINT);

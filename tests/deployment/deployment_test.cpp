@@ -175,7 +175,8 @@ TEST_F(DeploymentTest, WhoIsUnwellAtTheEndIsToldAndIsTheStatusWhereNoGoalsJudge)
   EXPECT_NE(unjudged.json.find(R"("reason":"ear: no young beat")"), std::string::npos)
       << unjudged.json;
   EXPECT_NE(unjudged.json.find(R"("unwell":["ear: no young beat"])"), std::string::npos);
-  EXPECT_NE(unjudged.table.find("unwell: <ear: no young beat>"), std::string::npos) << unjudged.table;
+  EXPECT_NE(unjudged.table.find("unwell: <ear: no young beat>"), std::string::npos)
+      << unjudged.table;
 
   const Told finished = run(three, shorter);
   EXPECT_EQ(finished.status, "ok") << "a scenario that came to its end is judged by itself";

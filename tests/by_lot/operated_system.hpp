@@ -10,7 +10,7 @@
 
 namespace armature::test {
 
-/// What a tool in a body keeps to.
+/// The body that a tool goes into, and by which rule it moves there.
 enum class Body { none, head, jaw, incision };
 
 /// A deployment with an operator who says anything at any time, and what its arm keeps to then.

@@ -228,7 +228,7 @@ int publish_recording(const PublishOptions& options) {
   if (player.messages() == 0 && player.left_out().empty() && player.broken().empty() && !left()) {
     fmt::print(stderr, "armature: {}\n",
                player.is_over()
-                   ? "the time was over before the first message came up"
+                   ? "the time (--timeout) was over before the first message came up"
                    : fmt::format("'{}' has no messages to be published", options.file.string()));
   }
   if (options.json) {

@@ -186,7 +186,7 @@ PlanResult GoalPlanner::plan(const MotionGoal& goal, const JointState& from, Tim
   const bool moving = !at_rest(from), stops_first = moving && begins_at_rest(goal);
   PlanResult first =
       stops_first ? after_stop(goal, from, start, false) : attempt(goal, from, start, false);
-  if (first || !goal.through.empty()) return first;
+  if (first) return first;
   if (moving && !stops_first) {
     if (PlanResult stopped = after_stop(goal, from, start, false)) return stopped;
   }

@@ -40,19 +40,16 @@ class GoalPlanner {
 
   /// A plan for `goal` that leaves `from` at `start` without a jump in q, v, a and ends at rest at
   /// the goal. Tried in this order: the path plugin's path, spliced while moving; the same after a
-  /// stop; unless path_only, straight in joint space. Fails with the reason of the first. A goal
-  /// that is stepwise never goes straight: its stops are the path's; nor does one with forbidden
-  /// zones. With key poses only the path
-  /// plugin's path, from rest: anything else would miss them. With a greatest speed from rest, too;
-  /// a stop that comes first counts for nothing there.
-  /// Where the goal is bound to the path, by path_only, by being stepwise, by key poses or by
-  /// forbidden zones, from which only the path plugin keeps the tool away, the tool leaves no line
-  /// of it by more than `max_path_deviation`; where it is spliced while moving, from the second
-  /// sample on, or it is not spliced. With forbidden zones every link that the robot file states
-  /// keeps `min_link_clearance` on the whole way, a stop before it left out; where it does not, the
-  /// way begins in another branch, if there is one that does. The tool goes into a zone that says
-  /// so (`tool_enters`) behind the joint segments that the path begins with, in lines; what those
-  /// lead to is the path's to see.
+  /// stop; unless the goal is bound to the path, straight in joint space. Fails with the reason of
+  /// the first. Bound are goals with path_only, stepwise ones, those with key poses, and those with
+  /// forbidden zones, from which only the path plugin keeps the tool away. Of these the tool leaves
+  /// no line of the path by more than `max_path_deviation`; what cannot be spliced without is not.
+  /// With key poses, or with a greatest speed, the way begins at rest, behind a stop that counts
+  /// for nothing there.
+  /// With forbidden zones every link that the robot file states keeps `min_link_clearance` on the
+  /// whole way, a stop before it left out. The tool goes into a zone that says so (`tool_enters`)
+  /// behind the joint segments that the path begins with, in lines; what those lead to is the
+  /// path's to see. A way that cannot be gone begins in another branch, if one serves.
   PlanResult plan(const MotionGoal& goal, const JointState& from, Time start);
 
   /// The joint position nearest to `near` that reaches `pose`.

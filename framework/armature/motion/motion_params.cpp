@@ -106,8 +106,8 @@ MotionLimits limits_of(const Params& params, const RobotModel& model) {
   return limits;
 }
 
-/// A stop heeds no limit of jerk, but its acceleration swells and ebbs: on a straight way it takes
-/// up to 1.73 times as long as with all of the acceleration from its first instant on.
+/// A stop heeds no limit of jerk, but its acceleration swells and ebbs: it takes up to `kSwells`
+/// times as long as with all of the acceleration from its first instant on.
 void check_stop(const Params& params, const RobotModel& model, Duration within) {
   constexpr double kSwells = 1.75;
   const MotionLimits limits = limits_of(params, model);

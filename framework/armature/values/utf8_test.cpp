@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "armature/values/inline_text.hpp"
+
 namespace armature {
 namespace {
 
@@ -20,6 +22,12 @@ TEST(Utf8, AMessageQuotesALongTextInPart) {
   EXPECT_EQ(in_part(fits), fits);
   EXPECT_EQ(in_part(fits + "x"), fits + "...");
   EXPECT_EQ(in_part(fits.substr(1) + "\u00fc"), fits.substr(1) + "...");
+}
+
+TEST(InlineText, IsCutAtAWholeCharacter) {
+  EXPECT_EQ(InlineText<8>{"12345678"}.view(), "12345678");
+  EXPECT_EQ(InlineText<8>{"123456789"}.view(), "12345...");
+  EXPECT_EQ(InlineText<8>{"1234\u00fc789"}.view(), "1234...") << "the fifth byte is half of one";
 }
 
 }  // namespace

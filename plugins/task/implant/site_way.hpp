@@ -26,8 +26,8 @@ struct PlannedImplant {
 std::optional<std::string> defect(const std::vector<Eigen::Isometry3d>& image_T_sites,
                                   const Parameters& parameters);
 
-/// What is wrong with the implants of a plan, or nullopt. They stand above their bores, and there,
-/// too, none may come nearer to another than `min_site_distance`.
+/// The defect of a plan's implants, or nullopt. Implants stand above their bores, and there, too,
+/// none may come nearer to another than `min_site_distance`.
 std::optional<std::string> defect(const std::vector<PlannedImplant>& implants,
                                   const std::vector<Eigen::Isometry3d>& image_T_sites,
                                   const Parameters& parameters);

@@ -66,7 +66,7 @@ void LockstepScheduler::handle(Event& event) {
   } else {
     entry.is_triggered = false;
   }
-  // What held the thread up held two events up, and the first of them has done the second's work.
+  // Two events were held up together, and the first of them has done the work of both.
   if ((event.periodic ? event.due : entry.triggered) < entry.activated) return;
   entry.activated = event.time;
   running_ = &entry;

@@ -257,13 +257,13 @@ std::string to_table(const RunReport& report, const Mark& mark, const Quote& quo
   }
   table += fmt::format("  {:<{}}  {}\n", "status", width,
                        mark(report.status(), report.status() == "ok"));
-  if (!report.ended_by().empty())
-    table += fmt::format("    ended by: {}\n", quote(report.ended_by()));
-  if (!report.story_reason().empty())
-    table += fmt::format("    {}\n", quote(report.story_reason()));
-  for (const auto& reason : report.reasons()) table += fmt::format("    {}\n", quote(reason));
-  for (const auto& unwell : report.unwell())
-    table += fmt::format("    unwell: {}\n", quote(unwell));
+  const auto tell = [&](std::string_view what, std::string_view text) {
+    table += fmt::format("    {}{}\n", what, quote(text));
+  };
+  if (!report.ended_by().empty()) tell("ended by: ", report.ended_by());
+  if (!report.story_reason().empty()) tell("", report.story_reason());
+  for (const std::string& reason : report.reasons()) tell("", reason);
+  for (const std::string& unwell : report.unwell()) tell("unwell: ", unwell);
   if (report.timing()) table += to_table(*report.timing());
   return table;
 }

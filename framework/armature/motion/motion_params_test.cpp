@@ -8,6 +8,7 @@
 
 #include "armature/config/document.hpp"
 #include "armature/kinds/declared_params.hpp"
+#include "armature/robot/trajectories/trajectory.hpp"
 #include "tests/refusal.hpp"
 
 namespace armature {
@@ -107,6 +108,13 @@ TEST(MotionParams, LimitsFromWhichNoStopComesToRestInTimeAreRefusedWithWhatItTak
               ElementsAre(AllOf(HasSubstr("joint weak of robot uneven takes 0.925 s"),
                                 testing::EndsWith("raise that, or lower max_velocity_rad_s"))))
       << "a stop heeds no jerk, and more acceleration the robot has not";
+}
+
+TEST(MotionParams, AStopTakesNoLongerThanItIsReckonedWith) {
+  const JointVector still = JointVector::Zero(1), one = JointVector::Constant(1, 1.0);
+  const Trajectory stop = stop_from({still, one, still}, one, 0.25 * one, Time{}, 1);
+  EXPECT_GT(stop.duration_s(), 4) << "with 0.25 rad/s2 from its first instant on";
+  EXPECT_LE(stop.duration_s(), 1.75 * 4);
 }
 
 }  // namespace

@@ -6,11 +6,14 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "armature/kinds/joint_messages.hpp"
 #include "armature/kinds/pose_messages.hpp"
 #include "armature/kinds/registered_plan.hpp"
 #include "armature/kinds/setup_robot.hpp"
+#include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
@@ -49,6 +52,7 @@ class BiopsyReport final : public Component {
     if (!start_) start_ = now;
     plan_.read();
     if (plan_.any_registration()) read(*plan_.any_registration());
+    see_vessels();
     for (std::size_t i = 0; i < ports_.measured_js.size(); ++i) read(ports_.measured_js[i], now);
     for (std::size_t i = 0; i < ports_.task_state.size(); ++i) read(ports_.task_state[i], now);
     // What the tip does after its task was cut off counts: the arm ramps down.
@@ -81,6 +85,8 @@ class BiopsyReport final : public Component {
            kDegreesPerRad);
     metric("other_joints_deg", "most that a turning joint moved inside [deg]",
            monitor_.turned_rad(), kDegreesPerRad);
+    metric("vessel_distance_mm", "nearest to a vessel in truth [mm]", monitor_.vessel_distance_m(),
+           1e3);
   }
 
  private:
@@ -99,11 +105,28 @@ class BiopsyReport final : public Component {
          radius_of_999_in_1000(needle.error_rms_m, needle.error_95_m));
   }
 
+  /// How the image lies in truth; none while nobody has said it.
+  std::optional<Eigen::Isometry3d> truth() const {
+    if (!ports_.truth.latest()) return {};
+    const auto robot_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
+    return robot_T_image ? std::optional{*robot_T_image} : std::nullopt;
+  }
+
+  void see_vessels() {
+    const auto robot_T_image = truth();
+    if (!plan_.plan() || !robot_T_image) return;
+    std::vector<ForbiddenZone> vessels = zones_of(plan_.plan()->forbidden_());
+    for (ForbiddenZone& vessel : vessels) {
+      vessel.from = *robot_T_image * vessel.from;
+      vessel.to = *robot_T_image * vessel.to;
+    }
+    monitor_.see_vessels(std::move(vessels));
+  }
+
   /// None until the task said that the needle is there.
   std::optional<double> target_error_m() const {
-    if (!tip_at_target_ || !plan_.plan() || !ports_.truth.latest()) return {};
-    const auto robot_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
-    if (!robot_T_image) return {};
+    const auto robot_T_image = truth();
+    if (!tip_at_target_ || !plan_.plan() || !robot_T_image) return {};
     return (*tip_at_target_ - *robot_T_image * to_eigen(plan_.plan()->target_())).norm();
   }
 
@@ -111,9 +134,8 @@ class BiopsyReport final : public Component {
   /// nothing was touched.
   std::optional<double> touch_error_m() const {
     if (!ports_.touched.latest() || ports_.touched.latest()->points_().empty()) return {};
-    if (!plan_.plan() || !ports_.truth.latest()) return {};
-    const auto robot_T_image = pose_of(ports_.truth.latest()->transform_(), "the truth's");
-    if (!robot_T_image) return {};
+    const auto robot_T_image = truth();
+    if (!plan_.plan() || !robot_T_image) return {};
     double squares = 0;
     for (const msg::Point& place : ports_.touched.latest()->points_()) {
       double nearest = std::numeric_limits<double>::infinity();

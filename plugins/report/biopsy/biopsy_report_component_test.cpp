@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "armature/kinds/zone_messages.hpp"
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/messages/geometry.hpp"
 #include "armature/messages/header.hpp"
@@ -23,6 +24,7 @@ class BiopsyReportTest : public testing::Test {
   void show_head() {
     msg::NeedlePlan plan;
     assign(plan.target_(), Eigen::Vector3d{0, 0, -0.03});
+    write_zones(vessels_, plan.forbidden_());
     report_.send("plan", plan);
     msg::TransformStamped truth;
     Eigen::Isometry3d robot_T_image = Eigen::Isometry3d::Identity();
@@ -62,6 +64,7 @@ class BiopsyReportTest : public testing::Test {
     report_.send("task_state", message);
   }
 
+  std::vector<ForbiddenZone> vessels_;  // in the image
   const RobotModel robot_ = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1_needle.yaml");
   const Eigen::Isometry3d home_ = forward_kinematics(robot_, resting_position(robot_));
   const Eigen::Vector3d tip_ = home_.translation(), down_ = home_.linear().col(2);
@@ -112,6 +115,19 @@ TEST_F(BiopsyReportTest, MeasuresAgainstThePlanThatWasRegisteredWhenAnotherOneCo
   tell("at target");
   report_.step(2);
   EXPECT_NEAR(report_.figures().metrics.at("target_error_mm"), 0.4, 1e-9);
+}
+
+TEST_F(BiopsyReportTest, HoldsTheNeedleAgainstTheVesselsWhereTheyAreInTruth) {
+  vessels_ = {{"artery", {0.01, -1, -0.01}, {0.01, 1, -0.01}, 0.002}};
+  show_head();
+  JointVector q = resting_position(robot_);
+  for (const double out_m : {0.08, 0.04, 0.0}) {
+    q[5] = resting_position(robot_)[5] - out_m;
+    send_arm(q);
+  }
+  report_.step(1);
+  EXPECT_NEAR(report_.figures().metrics.at("vessel_distance_mm"), 7.6, 1e-9)
+      << "the head is 0.4 mm beside where the registration has it";
 }
 
 TEST_F(BiopsyReportTest, OfAnErrorThatNobodyExpectsNothingIsAPart) {

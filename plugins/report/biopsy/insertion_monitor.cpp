@@ -29,6 +29,11 @@ void InsertionMonitor::see_tip(const Eigen::Vector3d& tip, const Eigen::Vector3d
   keep_largest(tilt_rad_, std::atan2(axis.cross(along).norm(), axis.dot(along)));
   const double turned = turning.size() > 0 ? (turning - *at_entry_).cwiseAbs().maxCoeff() : 0;
   keep_largest(turned_rad_, turned);
+  const Eigen::Vector3d at_entry = tip - along.dot(from_entry) * axis;
+  for (const ForbiddenZone& vessel : vessels_) {
+    const double distance = clearance(at_entry, tip, vessel);
+    vessel_distance_m_ = std::min(vessel_distance_m_.value_or(distance), distance);
+  }
 }
 
 }  // namespace armature::report::biopsy

@@ -3,7 +3,10 @@
 
 #include <Eigen/Geometry>
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include "armature/robot/geometry/forbidden_zone.hpp"
 #include "armature/robot/model/joint_vector.hpp"
 #include "armature/values/time.hpp"
 
@@ -23,6 +26,8 @@ class InsertionMonitor {
     needle_.reset();
     if (needle.entry.allFinite() && needle.target.allFinite()) needle_ = needle;
   }
+  /// Where they are in truth, in the base frame.
+  void see_vessels(std::vector<ForbiddenZone> vessels) { vessels_ = std::move(vessels); }
   /// The tip, the needle's direction (unit), and the values of the joints that turn.
   void see_tip(const Eigen::Vector3d& tip, const Eigen::Vector3d& axis, const JointVector& turning);
 
@@ -32,11 +37,15 @@ class InsertionMonitor {
   std::optional<double> line_deviation_m() const { return deviation_m_; }
   std::optional<double> line_tilt_rad() const { return tilt_rad_; }
   std::optional<double> turned_rad() const { return turned_rad_; }
+  /// The least distance of the needle's axis, from the entry to the tip, from the surface of a
+  /// vessel; negative inside. None where there is no vessel, too.
+  std::optional<double> vessel_distance_m() const { return vessel_distance_m_; }
 
  private:
   std::optional<RegisteredNeedle> needle_;
   std::optional<Eigen::Vector3d> tip_;
-  std::optional<double> deviation_m_, tilt_rad_, turned_rad_;
+  std::vector<ForbiddenZone> vessels_;
+  std::optional<double> deviation_m_, tilt_rad_, turned_rad_, vessel_distance_m_;
   std::optional<JointVector> at_entry_;  // of the joints that turn
   bool entered_ = false;
 };

@@ -62,6 +62,21 @@ TEST(InsertionMonitor, ALineThatIsNoneIsNotMetByAnyNeedle) {
   EXPECT_FALSE(monitor.line_deviation_m());
 }
 
+TEST(InsertionMonitor, TellsTheNearestThatTheNeedleCameToAVesselOnceItIsPastTheEntry) {
+  InsertionMonitor monitor;
+  monitor.see_registration(kNeedle);
+  monitor.see_vessels({{"vein", {0.004, -1, 0.05}, {0.004, 1, 0.05}, 0.003},
+                       {"artery", {0.006, -1, -0.02}, {0.006, 1, -0.02}, 0.002}});
+  monitor.see_tip({0, 0, 0}, kDown, joints(1, 2));
+  EXPECT_FALSE(monitor.vessel_distance_m()) << "it has passed the vein outside";
+  monitor.see_tip({0, 0, -0.01}, kDown, joints(1, 2));
+  EXPECT_NEAR(*monitor.vessel_distance_m(), std::hypot(0.006, 0.01) - 0.002, 1e-15);
+  monitor.see_tip({0, 0, -0.05}, kDown, joints(1, 2));
+  EXPECT_NEAR(*monitor.vessel_distance_m(), 0.004, 1e-15) << "beside the needle, not its tip";
+  monitor.see_tip({0.005, 0, -0.05}, kDown, joints(1, 2));
+  EXPECT_NEAR(*monitor.vessel_distance_m(), -0.001, 1e-15) << "inside";
+}
+
 TEST(InsertionMonitor, KeepsTheWorst) {
   InsertionMonitor monitor;
   monitor.see_registration(kNeedle);

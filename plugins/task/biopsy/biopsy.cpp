@@ -73,7 +73,7 @@ void Biopsy::see_registration(const RegisteredHead& head, Time now) {
                     1e3 * head.target_error95_m, 1e3 * parameters_.max_tre),
         now);
   }
-  line_ = moved(plan_, head.robot_T_image);
+  line_ = registered(plan_, head.robot_T_image, head.target_error95_m);
   enter(Step::approach);
 }
 

@@ -100,7 +100,8 @@ TEST_F(BiopsyTest, GoesFromThePlanToTheTargetStopByStopAndOutAgain) {
   EXPECT_LT((*goal.focus - Vector3d{0.4, -0.05, 0.2}).norm(), 1e-15);
   ASSERT_EQ(goal.forbidden.size(), 2u);
   EXPECT_LT((goal.forbidden[0].to - Vector3d{0.41, 0, 0.3}).norm(), 1e-15);
-  EXPECT_EQ(goal.forbidden[0].radius_m, 0.002);
+  EXPECT_NEAR(goal.forbidden[0].radius_m, 0.0025, 1e-15)
+      << "larger by what 95 of 100 registrations stay below at the target";
   EXPECT_LT((goal.forbidden[1].from - Vector3d{0.4, 0, 0.2}).norm(), 1e-15);
   EXPECT_TRUE(goal.forbidden[1].tool_enters) << "the head, until the needle is on its line";
   EXPECT_EQ(reach(1).mode, MotionMode::resume);
@@ -447,7 +448,7 @@ TEST_F(OperatedBiopsyTest, AWayThatIsRefusedBeforeAnythingMovedIsAskedForAgain) 
 
 TEST_F(BiopsyTest, ARobotWithoutAPointingAxisIsGivenTheRotationNearestToHome) {
   const RobotModel six = load_robot_model(ARMATURE_SOURCE_DIR "/configs/robots/sr1.yaml");
-  const NeedleLine line = moved(kPlan, good().robot_T_image);
+  const NeedleLine line = registered(kPlan, good().robot_T_image, 0);
   const ToolPose pose = pose_at_target(line, six);
   const Eigen::Matrix3d R{std::get<Eigen::Quaterniond>(pose.orientation)};
   EXPECT_LT((R.col(2) - Vector3d{0, 1, 0}).norm(), 1e-12);

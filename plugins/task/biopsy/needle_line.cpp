@@ -31,10 +31,12 @@ double depth_in(const std::vector<ForbiddenZone>& zones, const Vector3d& point) 
   return depth;
 }
 
-void move(std::vector<ForbiddenZone>& zones, const Eigen::Affine3d& robot_T_image) {
+void move(std::vector<ForbiddenZone>& zones, const Eigen::Affine3d& robot_T_image, double error_m) {
   for (ForbiddenZone& zone : zones) {
     zone.from = robot_T_image * zone.from;
     zone.to = robot_T_image * zone.to;
+    zone.radius_m += error_m;
+    zone.name += fmt::format(" and {:.2f} mm by which it may be elsewhere", 1e3 * error_m);
   }
 }
 
@@ -79,12 +81,13 @@ std::optional<std::string> defect(const NeedleLine& plan, double max_entry_depth
   return std::nullopt;
 }
 
-NeedleLine moved(const NeedleLine& line, const Eigen::Affine3d& robot_T_image) {
+NeedleLine registered(const NeedleLine& line, const Eigen::Affine3d& robot_T_image,
+                      double error_m) {
   NeedleLine there = line;
   there.entry = robot_T_image * line.entry;
   there.target = robot_T_image * line.target;
-  move(there.forbidden, robot_T_image);
-  move(there.head, robot_T_image);
+  move(there.forbidden, robot_T_image, error_m);
+  move(there.head, robot_T_image, error_m);
   return there;
 }
 

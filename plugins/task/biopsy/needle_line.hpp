@@ -25,8 +25,9 @@ struct NeedleLine {
 /// the head.
 std::optional<std::string> defect(const NeedleLine& plan, double max_entry_depth_m);
 
-/// `line`, of the image, before the robot.
-NeedleLine moved(const NeedleLine& line, const Eigen::Affine3d& robot_T_image);
+/// `line`, of the image, before the robot. Vessels and head are larger by `error_m`, by which the
+/// needle may miss the place in them that it is sent to.
+NeedleLine registered(const NeedleLine& line, const Eigen::Affine3d& robot_T_image, double error_m);
 
 /// What motion keeps away from: the vessels always, and the head until the needle goes into it
 /// along its line.

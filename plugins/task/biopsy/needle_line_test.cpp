@@ -71,12 +71,12 @@ TEST(NeedleLines, OfAHeadInPartsAreAsDeepAsInTheDeepestOfThem) {
   EXPECT_EQ(defect_of(plan), "") << "in the jaw alone";
 }
 
-TEST(NeedleLines, BeforeTheRobotKeepVesselsAndHeadWithThem) {
+TEST(NeedleLines, BeforeTheRobotKeepVesselsAndHeadWithThemLargerByTheError) {
   const Eigen::Affine3d robot_T_image{Eigen::Translation3d{0.4, 0, 0.2} *
                                       Eigen::AngleAxisd{M_PI / 2, Vector3d::UnitX()}};
   NeedleLine plan = into_a_head();
   plan.head[0].to = {0, 0, -0.02};
-  const NeedleLine there = moved(plan, robot_T_image);
+  const NeedleLine there = registered(plan, robot_T_image, 0.0007);
   EXPECT_LT((there.target - Vector3d{0.4, -0.02, 0.2}).norm(), 1e-15);
   EXPECT_LT((there.forbidden[0].to - Vector3d{0.42, 0, 0.23}).norm(), 1e-15);
   EXPECT_LT((there.head[0].to - Vector3d{0.4, 0.02, 0.2}).norm(), 1e-15);
@@ -84,7 +84,9 @@ TEST(NeedleLines, BeforeTheRobotKeepVesselsAndHeadWithThem) {
   ASSERT_EQ(zones.size(), 2u);
   EXPECT_FALSE(zones[0].tool_enters) << "a vessel";
   EXPECT_TRUE(zones[1].tool_enters) << "the head";
-  EXPECT_EQ(zones[1].radius_m, 0.08);
+  EXPECT_NEAR(zones[0].radius_m, 0.0027, 1e-15);
+  EXPECT_EQ(zones[0].name, "artery and 0.70 mm by which it may be elsewhere");
+  EXPECT_NEAR(zones[1].radius_m, 0.0807, 1e-15);
 }
 
 }  // namespace

@@ -109,7 +109,8 @@ class ArmAngleChoice {
 static_assert(sizeof(ArmAngleChoice) < 256 * 1024);
 
 double ArmAngleChoice::wanted() {
-  if (!wanted_) wanted_ = arm_angle_of(numbers_.arm, seed_);
+  const SrsArm& arm = numbers_.arm;
+  if (!wanted_) wanted_ = kept_arm_angle(arm, seed_, arm_angle_of(arm, seed_), goal_);
   return *wanted_;
 }
 

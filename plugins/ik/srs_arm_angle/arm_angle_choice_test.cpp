@@ -104,7 +104,9 @@ class ArmAngleChoices : public testing::TestWithParam<Subject> {
       solver_->feasible_redundancy(goal_, seed_, intervals_);
       if (i % 2 == 1) last_ = std::uniform_real_distribution{-M_PI, M_PI}(random_);
       if (i % 2 == 0) last_.reset();
-      const double wanted = last_ ? *last_ : *solver_->redundancy_of(seed_);
+      const double wanted =
+          kept_arm_angle(arm_, seed_, last_ ? *last_ : *solver_->redundancy_of(seed_),
+                         srs_goal(arm_, goal_, seed_));
       IkBranches found;
       IkState state{last_};
       EXPECT_EQ(solver_->solve(goal_, seed_, found, state).code, IkStatus::Code::ok);
@@ -198,8 +200,8 @@ TEST(ArmAngleChoice, IsTheMinimumToAHundredMillionthOfARadian) {
 TEST(ArmAngleChoice, TheLastArmAngleIsKeptBeforeTheSeeds) {
   const auto solver = solver_for(*med7(), "continuity");
   JointVector q(7), seed(7);
-  q << 0.1, 0.5, 0.2, 1, -0.3, -0.8, 0.4;
-  seed = *med7()->home();
+  q << 0.1, 0.9, 0.2, 1, -0.3, -0.8, 0.4;
+  seed << 0.4, 0.9, -0.1, 1.2, 0, -0.5, 0;
   const IkGoal goal = goal_at(*med7(), q);
   IkBranches found;
   IkState fresh, told{.last_redundancy = 0.25};
@@ -209,11 +211,56 @@ TEST(ArmAngleChoice, TheLastArmAngleIsKeptBeforeTheSeeds) {
   EXPECT_EQ(found.branch[1].redundancy, 0.25);
 }
 
+/// The joints of the branch that is nearest to `q`, of the tool `by` [m] beside where `q` has it.
+JointVector nearest_beside(const RobotModel& model, const IkSolver& solver, const JointVector& q,
+                           const Eigen::Vector3d& by) {
+  IkGoal goal = goal_at(model, q);
+  goal.pose.position += by;
+  IkBranches found;
+  IkState state{.last_redundancy = solver.redundancy_of(q)};
+  EXPECT_EQ(solver.solve(goal, q, found, state).code, IkStatus::Code::ok);
+  return std::ranges::min_element(
+             found, {}, [&](const IkBranch& branch) { return joint_distance(branch.q, q); })
+      ->q;
+}
+
+TEST(ArmAngleChoice, AWristThatLeavesAxis1TakesTheElbowAlongWhicheverWayItGoes) {
+  const ModelPtr model = without_limits(*med7());
+  JointVector hanging(7);
+  hanging << 0.3, 2.4, 0, 2 * (2.4 - M_PI), 0.1, 0.4, 0;  // the wrist below the shoulder
+  for (const char* objective : {"continuity", "balanced"}) {
+    const auto solver = solver_for(*model, objective);
+    for (const JointVector& q : {JointVector{*med7()->home()}, hanging}) {
+      const JointVector there = nearest_beside(*model, *solver, q, Eigen::Vector3d::Zero());
+      for (int i = 0; i < 16; ++i) {
+        const double azimuth = i * M_PI / 8;
+        const Eigen::Vector3d by{1e-4 * std::cos(azimuth), 1e-4 * std::sin(azimuth), 0};
+        EXPECT_LT(joint_distance(nearest_beside(*model, *solver, q, by), there), 0.01)
+            << objective << " " << azimuth;
+      }
+    }
+  }
+}
+
+TEST(ArmAngleChoice, AWristThatPassesAxis1NearlyTurnsNoJointFast) {
+  const ModelPtr model = med7();
+  const auto solver = solver_for(*model, "continuity");
+  constexpr double kStep_m = 0.001, kBeside_m = 0.0003;
+  JointVector q = nearest_beside(*model, *solver, *model->home(), {-0.15, kBeside_m, 0});
+  double fastest = 0;
+  for (int i = 0; i < 300; ++i) {
+    const JointVector next = nearest_beside(*model, *solver, q, {kStep_m, 0, 0});
+    fastest = std::max(fastest, joint_distance(next, q));
+    q = next;
+  }
+  EXPECT_LT(fastest, 0.02) << "a millimetre is 2.5 mrad for an arm of 0.4 m";
+}
+
 TEST(ArmAngleChoice, OfAnArmWithoutLimitsStaysWhereItWas) {
   const ModelPtr model = without_limits(*med7());
   const auto solver = solver_for(*model, "limits");
   JointVector q(7);
-  q << 0.1, 0.5, 0.2, 1, -0.3, -0.8, 0.4;
+  q << 0.1, 0.9, 0.2, 1, -0.3, -0.8, 0.4;
   IkBranches found;
   IkState state;
   solver->solve(goal_at(*model, q), q, found, state);

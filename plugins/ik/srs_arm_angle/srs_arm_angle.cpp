@@ -94,7 +94,7 @@ IkStatus SrsArmAngle::solve(const IkGoal& goal, const JointVector& seed, IkBranc
     add_branches(own, wrap_angle(*goal.redundancy), out);
   } else {
     std::optional<double> last = state.last_redundancy;
-    if (last) last = wrap_angle(*last);
+    if (last) last = kept_arm_angle(numbers_.arm, seed, wrap_angle(*last), own);
     add_best_branches(own, seed, last, out);
   }
   return status_of(out);

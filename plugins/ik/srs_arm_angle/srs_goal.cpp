@@ -18,6 +18,7 @@ constexpr double kOnRim = 2e-15, kOnAxis = 1e-13;
 // A wrist out of reach by less than this part of the arm is on the rim of reach, and axes nearer to
 // in line than this [rad] are in line; but never by more than the goal tolerates.
 constexpr double kSlack = 1e-11, kInLine = 1e-10, kRounding = 1e-14;
+constexpr double kNextToAxis = 0.1;  // the sine of the angle between the line to a wrist and axis 1
 
 /// Azimuth and polar angle of a direction; no azimuth on the axis.
 struct Spherical {
@@ -152,6 +153,17 @@ double arm_angle_of(const SrsArm& arm, const JointVector& q) {
   const Vector3d x = seen * (phi.cos * upper.rotation.col(0) - phi.sin * upper.rotation.col(2));
   const Vector3d y = seen * upper.rotation.col(1);
   return wrap_angle(std::atan2(x.y() - y.x(), x.x() + y.y()));
+}
+
+double kept_arm_angle(const SrsArm& arm, const JointVector& q, double arm_angle,
+                      const SrsGoal& goal) {
+  const Spherical line =
+      spherical(wrist_or_direction(arm, upper_arm(arm, q)), kOnAxis * arm.reach());
+  const SinCos& nearer = line.polar.sin < goal.polar.sin ? line.polar : goal.polar;
+  if (nearer.sin >= kNextToAxis) return arm_angle;
+  const SinCos turned = line.azimuth - goal.azimuth;
+  const double by = std::atan2(turned.sin, turned.cos);
+  return wrap_angle(nearer.cos < 0 ? arm_angle - by : arm_angle + by);
 }
 
 SrsGoal srs_goal(const SrsArm& arm, const IkGoal& goal, const JointVector& seed) {

@@ -167,6 +167,25 @@ TEST_F(MotionComponentTest, TwoGoalsAtOnceAreTakenInOrder) {
   EXPECT_NEAR(arm_[2], 0.6, 1e-9);
 }
 
+TEST_F(MotionComponentTest, OfTwoGoalsWithOneIdNeitherIsDriven) {
+  run(100.1);
+  give(goal(1, {0.5, 0, 0}));
+  give(goal(1, {0.6, 0, 0}));
+  run(104);
+  EXPECT_EQ(history(), (std::vector<std::string>{"1 accepted", "1 failed"}));
+  EXPECT_EQ(statuses_.back().reason_(),
+            "another goal has come with this id: every goal has an id of its own");
+  EXPECT_NEAR(arm_[2], 0.3, 1e-9);
+}
+
+TEST_F(MotionComponentTest, AGoalThatIsToldTwiceIsDrivenOnce) {
+  run(100.1);
+  for (int i = 0; i < 2; ++i) give(goal(1, {0.5, 0, 0}));
+  run(104);
+  EXPECT_EQ(history().back(), "1 done");
+  EXPECT_NEAR(arm_[2], 0.5, 1e-9);
+}
+
 TEST_F(MotionComponentTest, AnArmThatFallsSilentFailsTheGoalAndIsWaitedFor) {
   run(100.1);
   give(goal(1, {2, 0, 0}));

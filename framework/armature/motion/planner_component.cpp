@@ -55,8 +55,18 @@ const msg::MotionGoal* MotionPlanner::find(std::uint64_t goal_id) const {
   return found == known_.rend() ? nullptr : &*found;
 }
 
+bool MotionPlanner::came_twice(const msg::MotionGoal& goal) const {
+  return std::ranges::any_of(known_, [&](msg::MotionGoal other) {
+    other.header_() = goal.header_();
+    return other.goal_id_() == goal.goal_id_() && other != goal;
+  });
+}
+
 void MotionPlanner::answer(const PlanRequest& request, const msg::MotionGoal& message) {
-  const auto goal = read_goal(message);
+  const auto goal =
+      came_twice(message)
+          ? refuse("another goal has come with this id: every goal has an id of its own")
+          : read_goal(message);
   planned_.reset();
   const WayLegResult leg =
       !goal ? WayLegResult{tl::unexpected{PlanFailure{"accept", goal.error().text}}}

@@ -27,6 +27,8 @@ class MotionPlanner final : public Component {
 
  private:
   const msg::MotionGoal* find(std::uint64_t goal_id) const;
+  /// Two that differ have one id: which of them was accepted is not told.
+  bool came_twice(const msg::MotionGoal& goal) const;
   void answer(const PlanRequest& request, const msg::MotionGoal& goal);
   WayLegResult plan(const PlanRequest& request, const MotionGoal& goal);
   void tell_straight(const Plan& plan, std::uint64_t goal_id);

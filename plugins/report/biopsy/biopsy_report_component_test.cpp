@@ -126,7 +126,7 @@ TEST_F(BiopsyReportTest, HoldsTheNeedleAgainstTheVesselsWhereTheyAreInTruth) {
     send_arm(q);
   }
   report_.step(1);
-  EXPECT_NEAR(report_.figures().metrics.at("vessel_distance_mm"), 7.6, 1e-9)
+  EXPECT_NEAR(report_.figures().metrics.at("true_vessel_distance_mm"), 7.6, 1e-9)
       << "the head is 0.4 mm beside where the registration has it";
 }
 

@@ -106,10 +106,11 @@ MotionLimits limits_of(const Params& params, const RobotModel& model) {
   return limits;
 }
 
-/// A stop heeds no limit of jerk, but its acceleration swells and ebbs: it takes up to `kSwells`
-/// times as long as with all of the acceleration from its first instant on.
+/// A stop heeds no limit of jerk, but its acceleration swells and ebbs, and on a curved way the
+/// curve takes a part of it: a stop takes up to `kSwells` times as long as with all of the
+/// acceleration from its first instant on.
 void check_stop(const Params& params, const RobotModel& model, Duration within) {
-  constexpr double kSwells = 1.75;
+  constexpr double kSwells = 2;
   const MotionLimits limits = limits_of(params, model);
   for (int i = 0; i < model.dof(); ++i) {
     const double brakes = limits.max_acceleration[i], range = model.upper()[i] - model.lower()[i];

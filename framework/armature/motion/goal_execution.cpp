@@ -189,8 +189,10 @@ void GoalExecution::take(const MotionGoal& goal, const ReasonText& wrong, Time n
 bool GoalExecution::is_on_way() const { return reference_.started() && is_planned(active_mode_); }
 
 void GoalExecution::stop_for(std::uint64_t goal_id, MotionMode mode, Time now) {
+  const bool in_hand = in_hand_ || guided(now);
   stop(now);
   execute(goal_id, mode, now);
+  in_hand_ = in_hand && mode != MotionMode::guided;
 }
 
 void GoalExecution::hold_instead(Time now) {
@@ -217,6 +219,7 @@ void GoalExecution::ask_again(Time now) {
   if (++next.attempt > kMaxAttempts && !next.standing) {
     if (next.mode == MotionMode::pause) return hold_instead(now);
     next.standing = true;
+    in_hand_ = false;
     stop(now);
     next.start = reference_.end();
   }
@@ -282,6 +285,7 @@ void GoalExecution::track(const MotionGoal& goal, Time now) {
 
 void GoalExecution::execute(std::uint64_t goal_id, MotionMode mode, Time now, int stops_ahead) {
   finish_active(State::superseded);
+  in_hand_ = false;
   stops_ahead_ = stops_ahead;
   active_ = goal_id;
   active_mode_ = mode;

@@ -164,7 +164,7 @@ class GoalExecution {
   ShortTrajectory way_;   // of a target that is tracked
   ReasonText behind_;     // why the tool is not on it
   bool spliced_ = false;  // since the last update
-  bool in_hand_ = false;  // it was halted while a hand moved it, which still does
+  bool in_hand_ = false;  // it was halted, or told to hold, while a hand moved it, which still does
   ReasonText halted_;
 };
 

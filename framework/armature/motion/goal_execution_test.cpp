@@ -144,6 +144,33 @@ TEST_F(GoalExecutionTest, AGuidedArmStopsAndThenTheReferenceIsWhereAHandMovesIt)
   EXPECT_LT(execution_.reference().at(now_).q.norm(), 1e-9);
 }
 
+TEST_F(GoalExecutionTest, AGuidedArmThatIsToldToHoldDoesWhereTheHandComesToRest) {
+  for (const MotionMode mode : {MotionMode::hold, MotionMode::pause}) {
+    const std::uint64_t id = mode == MotionMode::hold ? 2 : 4;
+    step_to(to_seconds(now_ - Time{}) + 0.1);
+    give(guided(id - 1));
+    step_to(to_seconds(now_ - Time{}) + 0.3);
+    JointVector moved = before_.q;
+    const auto lead = [&] {
+      for (int k = 0; k < 100; ++k) {
+        put(moved += JointVector{Eigen::Vector3d{0, 0, 1e-4}});
+        ASSERT_EQ(before_.q, moved) << "else it would go back when it is let go";
+      }
+    };
+    lead();
+    MotionGoal rest = guided(id);
+    rest.mode = mode;
+    give(rest);
+    lead();
+    EXPECT_EQ(statuses_.back().state, State::executing) << "the hand has it still";
+    for (int k = 0; k < 100; ++k) put(moved);
+    EXPECT_EQ(history().back(), (std::pair{id, State::done}));
+    const JointVector held = moved;
+    put(moved += JointVector{Eigen::Vector3d{0, 0, 1e-4}});
+    EXPECT_EQ(before_.q, held) << "it is held there from then on";
+  }
+}
+
 TEST_F(GoalExecutionTest, AnArmThatFallsSilentIsNotGuidedAnyMore) {
   step_to(0.1);
   give(guided(1));

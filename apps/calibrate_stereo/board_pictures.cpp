@@ -3,7 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "folder_pictures.hpp"
 
@@ -24,6 +27,17 @@ void check_size(BoardPictures& found, const GrayPicture& picture, const std::str
                   name, picture.width, picture.height, found.width, found.height));
 }
 
+/// Which pair has one of these pictures already, or "": a copy tells nothing new, and one picture
+/// is not seen at two moments.
+std::string shown_before(const std::vector<stereo::BoardView>& views,
+                         const stereo::BoardView& view) {
+  const auto earlier = std::ranges::find_if(views, [&](const stereo::BoardView& other) {
+    return other.left == view.left || other.right == view.right;
+  });
+  if (earlier == views.end()) return "";
+  return fmt::format("{}: a picture of it is that of {}", view.name, earlier->name);
+}
+
 }  // namespace
 
 BoardPictures read_board_pictures(const std::filesystem::path& left,
@@ -34,7 +48,7 @@ BoardPictures read_board_pictures(const std::filesystem::path& left,
   BoardPictures found;
   for (const pictures::FilePair& pair : folders.files()) {
     ++found.pairs;
-    stereo::BoardView view;
+    stereo::BoardView view{.left = {}, .right = {}, .name = pair.left.filename()};
     std::string why;
     for (const auto& [file, corners] :
          {std::pair{&pair.left, &view.left}, {&pair.right, &view.right}}) {
@@ -55,12 +69,12 @@ BoardPictures read_board_pictures(const std::filesystem::path& left,
       }
       *corners = std::move(*board);
     }
+    if (why.empty()) why = shown_before(found.views, view);
     if (!why.empty()) {
       fmt::print(stderr, "left out: {}\n", why);
       continue;
     }
     found.views.push_back(std::move(view));
-    found.names.push_back(pair.left.filename());
   }
   return found;
 }

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 #include <vector>
 
 #include "chessboard.hpp"
@@ -15,10 +14,10 @@ struct BoardPictures {
   int width = 0, height = 0;             // [px] of all pictures
   std::size_t pairs = 0;                 // that were looked at
   std::vector<stereo::BoardView> views;  // those with the board in both pictures
-  std::vector<std::string> names;        // of the left pictures of the views
 };
 
-/// Looks for a board in all pairs, and tells each that shows none on standard error. Throws
+/// Looks for a board in all pairs, and tells each that shows none, or a picture that another pair
+/// has, on standard error. Throws
 /// SetupError for folders that are none, and std::runtime_error for pictures of different sizes.
 BoardPictures read_board_pictures(const std::filesystem::path& left,
                                   const std::filesystem::path& right,

@@ -31,6 +31,8 @@ constexpr int kOk = 0, kFailed = 1, kInvalid = 3;  // as the command line's exit
 constexpr double kOutlier = 3;                     // times the median of a pair's residual
 constexpr double kWellCovered = 0.7;
 constexpr double kMaxRms = 2, kMaxRowError = 3;  // [px]; sound pictures leave some tenths
+/// Cameras that stand still against each other leave as much as each of them does by itself.
+constexpr double kMoreThanAlone = 2, kRounding_px = 0.05;
 
 /// How far the rows of a corner's two rectified pixels are apart: rms and the worst [px].
 struct RowErrors {
@@ -73,10 +75,10 @@ std::vector<std::string> warn_of_outliers(const stereo::StereoFit& fit,
   std::vector<std::string> outliers;
   for (std::size_t i = 0; i < fit.view_rms_px.size(); ++i) {
     if (fit.view_rms_px[i] <= kOutlier * median) continue;
-    outliers.push_back(pictures.names[i]);
+    outliers.push_back(pictures.views[i].name);
     fmt::print(stderr,
                "{}: {:.3f} px remain, and {:.3f} px in the middle of all pairs; leave it out\n",
-               pictures.names[i], fit.view_rms_px[i], median);
+               outliers.back(), fit.view_rms_px[i], median);
   }
   return outliers;
 }
@@ -91,12 +93,27 @@ void warn_of_coverage(const Json& told) {
   }
 }
 
+/// Of sensors' pixels that are as wide as high, as nearly all are, boards' squares that are not.
+void warn_of_squares(const stereo::StereoCalibration& calibration) {
+  constexpr double kPrinted = 0.003, kAlike = 0.5;
+  const auto wider = [](const stereo::Lens& lens) { return lens.fx / lens.fy - 1; };
+  const double left = wider(calibration.left), right = wider(calibration.right);
+  const double less = std::min(std::abs(left), std::abs(right));
+  if (less < kPrinted || std::abs(left - right) > kAlike * less) return;
+  fmt::print(stderr,
+             "fx is {:.4f} times fy of the left camera and {:.4f} times of the right one: are the "
+             "board's squares as wide as high? measure both sides of the board, a print may be "
+             "stretched; what is said of the errors holds for a board as it is stated\n",
+             1 + left, 1 + right);
+}
+
 /// Throws for pictures that contradict each other: no pair of cameras sees them so.
 [[noreturn]] void refuse_contradiction(const std::string& what,
                                        const std::vector<std::string>& outliers) {
   const std::string hint =
-      outliers.empty() ? "no pair is worse than the others: was the board flat and still, and are "
-                         "the two pictures of a pair of one moment?"
+      outliers.empty() ? "no pair is worse than the others: was the board flat and still, are the "
+                         "two pictures of a pair of one moment, and was no camera moved against "
+                         "the other between the pairs?"
                        : fmt::format("leave out {}", fmt::join(outliers, ", "));
   throw std::runtime_error(fmt::format("nothing is written: {}; {}", what, hint));
 }
@@ -170,6 +187,14 @@ int calibrate(const Json& options) {
                                      fit->left_rms_px, fit->right_rms_px, kMaxRms),
                          outliers);
   }
+  const double together = std::hypot(fit->left_rms_px, fit->right_rms_px) / std::numbers::sqrt2;
+  if (together > kMoreThanAlone * fit->alone_rms_px + kRounding_px) {
+    refuse_contradiction(
+        fmt::format("{:.3f} px rms remain of both cameras together, and {:.3f} px of each by "
+                    "itself",
+                    together, fit->alone_rms_px),
+        outliers);
+  }
   const auto made = stereo::rectification_of(fit->calibration);
   if (!made) throw std::runtime_error(made.error().text);
   const Json figures = told(pictures, *fit, *made);
@@ -179,6 +204,7 @@ int calibrate(const Json& options) {
         outliers);
   }
   warn_of_coverage(figures);
+  warn_of_squares(fit->calibration);
 
   std::string comment =
       fmt::format("# armature calibrate stereo, a board of {} x {} corners, {:g} mm apart\n",

@@ -176,20 +176,35 @@ TEST(CalibrateStereo, WritesNothingFromPicturesThatContradictEachOtherAndNamesTh
     EXPECT_FALSE(fs::exists(rig));
     return result.err;
   };
-  fs::copy_file(boards.path("right/1.png"), right, fs::copy_options::overwrite_existing);
-  EXPECT_THAT(refusal(), ContainsRegex("nothing is written: .* px rms remain in the left pictures "
-                                       ".*, 2 at most are taken; leave out 6.png\n"));
-  // Of one pair among fifteen, 8 rows hardly show in the rms of all.
+  fs::rename(right, boards.path("other.png"));
+  fs::rename(boards.path("left/6.png"), right);
+  fs::rename(boards.path("other.png"), boards.path("left/6.png"));
+  EXPECT_THAT(
+      refusal(),
+      ContainsRegex("the boards of 6.png are up to .* px from where they are seen: are left "
+                    "and right exchanged, or of different moments\\? leave out it\n"));
+  fs::rename(right, boards.path("left/6.png"));
   cv::Mat shifted = picture.clone();
   picture.rowRange(8, kDown).copyTo(shifted.rowRange(0, kDown - 8));
   cv::imwrite(right, shifted);
-  EXPECT_THAT(refusal(), ContainsRegex("nothing is written: rows are up to .* px apart, 3 at most "
-                                       "are taken; leave out 6.png\n"));
+  EXPECT_THAT(refusal(),
+              ContainsRegex("nothing is written: .* px rms remain of both cameras together, and .* "
+                            "px of each by itself; leave out 6.png\n"));
 
   fs::remove(right);
   const CommandResult sound = calibrate(boards, {"--board", "9", "6", "--json"});
   ASSERT_EQ(sound.exit_code, 0) << sound.err;
   EXPECT_LT(nlohmann::json::parse(sound.out)["row_error_max_px"], 1);
+}
+
+TEST(CalibrateStereo, LeavesOutACopyOfAPicture) {
+  const DrawnBoards boards{4};
+  fs::copy_file(boards.path("left/1.png"), boards.path("left/9.png"));
+  fs::copy_file(boards.path("right/1.png"), boards.path("right/9.png"));
+  const CommandResult result = calibrate(boards, {"--board", "9", "6", "--json"});
+  EXPECT_THAT(result.err, HasSubstr("left out: 9.png: a picture of it is that of 1.png\n"));
+  ASSERT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(nlohmann::json::parse(result.out)["pairs_used"], 4);
 }
 
 TEST(CalibrateStereo, RefusesAFolderThatIsNotThere) {

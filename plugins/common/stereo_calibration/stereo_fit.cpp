@@ -2,11 +2,15 @@
 #include "stereo_fit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "board_pose.hpp"
@@ -27,6 +31,7 @@ constexpr double kMaxFocalError = 0.05;
 struct OneCamera {
   Lens lens;
   std::vector<Isometry3d> camera_T_board;
+  double squares = 0;  // of what is left [px^2]
 };
 
 /// From several focal lengths, of which the best solution counts: what a bent lens does to a board
@@ -59,23 +64,75 @@ Expected<OneCamera> fit_one(const Points& board, const std::vector<const Points*
     }
   }
   if (!best) return refuse(why);
-  return OneCamera{best->lenses[0], std::move(best->left_T_board)};
+  const double squares = problem.squares(*best);
+  return OneCamera{best->lenses[0], std::move(best->left_T_board), squares};
 }
 
-/// The right camera's posture in the middle of what single views say.
-Isometry3d mean_posture(const OneCamera& left, const OneCamera& right) {
-  Isometry3d mean = right.camera_T_board[0] * left.camera_T_board[0].inverse();
+double median_of(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// The right camera's posture in the middle of what single views say: some wrong ones do not move
+/// it.
+Isometry3d middle_posture(const OneCamera& left, const OneCamera& right) {
+  Isometry3d middle = right.camera_T_board[0] * left.camera_T_board[0].inverse();
   for (int round = 0; round < 5; ++round) {
-    VectorXd by = VectorXd::Zero(BundleProblem::kOfPose);
+    std::array<std::vector<double>, BundleProblem::kOfPose> off;
     for (std::size_t v = 0; v < left.camera_T_board.size(); ++v) {
       const Isometry3d one = right.camera_T_board[v] * left.camera_T_board[v].inverse();
-      const Eigen::AngleAxisd turn{Eigen::Matrix3d{one.linear() * mean.linear().transpose()}};
-      by.head<3>() += turn.angle() * turn.axis();
-      by.tail<3>() += one.translation() - mean.translation();
+      const Eigen::AngleAxisd turn{Eigen::Matrix3d{one.linear() * middle.linear().transpose()}};
+      for (int i = 0; i < 3; ++i) {
+        off[i].push_back(turn.angle() * turn.axis()[i]);
+        off[3 + i].push_back(one.translation()[i] - middle.translation()[i]);
+      }
     }
-    mean = moved(mean, by / static_cast<double>(left.camera_T_board.size()));
+    VectorXd by(BundleProblem::kOfPose);
+    std::ranges::transform(off, by.begin(), median_of);
+    middle = moved(middle, by);
   }
-  return mean;
+  return middle;
+}
+
+/// How far a board's corners are, in the right picture, from where the left picture and
+/// `right_T_left` have them: rms of each view [px].
+std::vector<double> apart_px(const Points& board, const OneCamera& left, const OneCamera& right,
+                             const Isometry3d& right_T_left) {
+  std::vector<double> apart;
+  for (std::size_t v = 0; v < left.camera_T_board.size(); ++v) {
+    double squares = 0;
+    for (const Vector2d& corner : board) {
+      const Vector3d point{corner.x(), corner.y(), 0};
+      const Vector3d by_left = right_T_left * left.camera_T_board[v] * point;
+      const Vector3d by_right = right.camera_T_board[v] * point;
+      squares += right.lens.fx * right.lens.fx *
+                 (by_left.normalized() - by_right.normalized()).squaredNorm();
+    }
+    apart.push_back(std::sqrt(squares / static_cast<double>(board.size())));
+  }
+  return apart;
+}
+
+/// Which views are of another rig, or of no rig at all; or "".
+std::string contradiction(const std::vector<BoardView>& views, const std::vector<double>& apart) {
+  constexpr double kFarApart = 20;  // [px] a camera that was knocked is less, a wrong picture more
+  std::vector<std::string> names;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    if (!(apart[v] <= kFarApart)) names.push_back(views[v].name);
+  }
+  if (names.empty()) return "";
+  const double farthest = *std::ranges::max_element(apart);
+  if (2 * names.size() >= views.size()) {
+    return fmt::format(
+        "the pairs contradict each other on where the right camera is, by up to {:.0f} px in {} of "
+        "{} pairs: are the two pictures of a pair of one moment, and both folders numbered alike?",
+        farthest, names.size(), views.size());
+  }
+  return fmt::format(
+      "where the other pairs have the right camera, the boards of {} are up to {:.0f} px from "
+      "where they are seen: are left and right exchanged, or of different moments? leave out {}",
+      fmt::join(names, ", "), farthest, names.size() == 1 ? "it" : "them");
 }
 
 FitErrors errors_of(const BundleProblem& problem, const Unknowns& x) {
@@ -119,9 +176,14 @@ Expected<StereoFit> fit_stereo(const Points& board, const std::vector<BoardView>
   if (!left) return refuse("left: " + left.error().text);
   const auto right = fit_one(board, rights, options);
   if (!right) return refuse("right: " + right.error().text);
+  const Isometry3d posture = middle_posture(*left, *right);
+  if (std::string why = contradiction(views, apart_px(board, *left, *right, posture));
+      !why.empty()) {
+    return refuse(std::move(why));
+  }
   const BundleProblem problem{board, both, options.with_k3};
   const auto found = solved(problem, {.lenses = {left->lens, right->lens},
-                                      .right_T_left = mean_posture(*left, *right),
+                                      .right_T_left = posture,
                                       .left_T_board = left->camera_T_board});
   if (!found) return tl::unexpected{found.error()};
 
@@ -150,8 +212,10 @@ Expected<StereoFit> fit_stereo(const Points& board, const std::vector<BoardView>
     right_squares += b;
     fit.view_rms_px.push_back(std::sqrt((a + b) / (2 * points)));
   }
-  fit.left_rms_px = std::sqrt(left_squares / (points * static_cast<double>(views.size())));
-  fit.right_rms_px = std::sqrt(right_squares / (points * static_cast<double>(views.size())));
+  const double all = points * static_cast<double>(views.size());
+  fit.left_rms_px = std::sqrt(left_squares / all);
+  fit.right_rms_px = std::sqrt(right_squares / all);
+  fit.alone_rms_px = std::sqrt((left->squares + right->squares) / (2 * all));
   return fit;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <string>
 #include <vector>
 
 #include "armature/values/expected.hpp"
@@ -13,6 +14,7 @@ namespace armature::stereo {
 /// in the order of the board's own.
 struct BoardView {
   std::vector<Eigen::Vector2d> left, right;
+  std::string name;  // of the pair
 };
 
 struct FitOptions {
@@ -32,7 +34,8 @@ struct StereoFit {
   StereoCalibration calibration;
   std::vector<Eigen::Isometry3d> left_T_board;  // of each view
   double left_rms_px = 0, right_rms_px = 0;     // of what is left
-  std::vector<double> view_rms_px;              // of both cameras
+  double alone_rms_px = 0;          // the same of both, where neither knows of the other
+  std::vector<double> view_rms_px;  // of both cameras
   FitErrors errors;
 };
 
@@ -41,8 +44,8 @@ struct StereoFit {
 /// of rigid motions (Zhang, IEEE PAMI 22(11), 2000, section 3.1, with square pixels and the
 /// principal point in the middle), and with five others, as a bent lens may hide it; then comes
 /// Levenberg-Marquardt for each camera, and for both together. Refuses fewer than three views,
-/// views by which a focal length is not known to 5 %, and what does not converge. Not real-time
-/// safe.
+/// those by which the right camera is far from where it is by the others, by name, views by which
+/// a focal length is not known to 5 %, and what does not converge. Not real-time safe.
 Expected<StereoFit> fit_stereo(const std::vector<Eigen::Vector2d>& board,
                                const std::vector<BoardView>& views, const FitOptions& options);
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two cameras that are known, and the corners of boards that they see: 1. without noise they are
 // found as they are, 2. with noise as well as the fit says of itself, 3. what tells nothing is
-// refused.
+// refused, as are pairs that contradict each other.
 #include "stereo_fit.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <random>
@@ -128,6 +129,42 @@ TEST(StereoFit, RefusesBoardsThatTellNothing) {
   EXPECT_NE(parallel.error().text.find("tilt the board by 20 to 40 degrees to all sides"),
             std::string::npos)
       << parallel.error().text;
+}
+
+TEST(StereoFit, NamesWhatContradictsTheOtherPairs) {
+  std::mt19937_64 random{5};
+  auto seen = views(9, 0.6, 0.1, random);
+  for (std::size_t v = 0; v < seen.size(); ++v) seen[v].name = std::to_string(v) + ".png";
+  auto exchanged = seen;
+  std::swap(exchanged[4].left, exchanged[4].right);
+  std::swap(exchanged[7].left, exchanged[7].right);
+  EXPECT_THAT(fit_stereo(board(), exchanged, kOptions).error().text,
+              testing::ContainsRegex("the boards of 4.png, 7.png are up to .* px from where they "
+                                     "are seen: .* leave out them$"));
+  for (std::size_t v = 0; v + 1 < seen.size(); ++v) seen[v].right = seen[v + 1].right;
+  EXPECT_THAT(fit_stereo(board(), seen, kOptions).error().text,
+              testing::ContainsRegex("the pairs contradict each other on where the right camera "
+                                     "is, by up to .* px in [5-9] of 9 pairs"));
+}
+
+TEST(StereoFit, CamerasThatWereMovedBetweenThePairsLeaveMoreTogetherThanAlone) {
+  std::mt19937_64 random{6};
+  auto seen = views(14, 0.6, 0.1, random);
+  const auto together = [&] {
+    const auto fit = fit_stereo(board(), seen, kOptions);
+    EXPECT_TRUE(fit) << fit.error().text;
+    EXPECT_NEAR(fit->alone_rms_px, 0.1 * std::sqrt(2), 0.015);
+    return std::hypot(fit->left_rms_px, fit->right_rms_px) / std::sqrt(2);
+  };
+  EXPECT_NEAR(together(), 0.1 * std::sqrt(2), 0.015);
+  const Lens lens = true_pair().right;
+  const Eigen::Matrix3d knock = rotation_from_rpy({0, 0.0087, 0});
+  for (std::size_t v = 7; v < seen.size(); ++v) {
+    for (Eigen::Vector2d& pixel : seen[v].right) {
+      pixel = lens.project((knock * lens.ray_of(pixel)->homogeneous()).hnormalized());
+    }
+  }
+  EXPECT_GT(together(), 0.4) << "half a degree";
 }
 
 }  // namespace

@@ -42,6 +42,7 @@ class Terminal {
   void type(const std::string& keys) const {
     EXPECT_EQ(write(file_, keys.data(), keys.size()), static_cast<ssize_t>(keys.size()));
   }
+  void signal(int signal) const { kill(pid_, signal); }
   /// True once `text` has been shown after the last one that was waited for.
   bool shows(const std::string& text) {
     const auto end = std::chrono::steady_clock::now() + kShownWithin;

@@ -217,6 +217,25 @@ TEST_F(OperatorTest, IsToldThatTheTaskWhoseQuestionStandsThereIsGone) {
   ASSERT_TRUE(dialogue.shows("c(onfirm) 'approach'"));
   run.signal(SIGKILL);
   EXPECT_TRUE(dialogue.shows("the task of 'sr1_biopsy' is gone"));
+  dialogue.type("abort\n");
+  EXPECT_TRUE(dialogue.shows("the task is gone, and nobody has heard 'abort'"));
+  Command next{operated_biopsy(), {}};
+  EXPECT_TRUE(dialogue.shows("c(onfirm) 'approach'"));
+  EXPECT_THAT(next.err(), Not(HasSubstr("the operator says abort")));
+}
+
+TEST_F(OperatorTest, WhoWasHaltedMeetsTheTaskAnewAndIsHeard) {
+  Command run{operated_biopsy(), {}};
+  ASSERT_TRUE(run.wait_for_err("asks the operator to confirm 'approach'", kAtMost)) << run.err();
+  Terminal dialogue{biopsy("operator")};
+  ASSERT_TRUE(dialogue.shows("c(onfirm) 'approach'"));
+  dialogue.signal(SIGSTOP);
+  std::this_thread::sleep_for(std::chrono::milliseconds{1500});
+  dialogue.signal(SIGCONT);
+  ASSERT_TRUE(dialogue.shows("s; it meets the task anew"));
+  ASSERT_TRUE(dialogue.shows("c(onfirm) 'approach'")) << "the screen says again what waits";
+  dialogue.type("abort\n");
+  EXPECT_TRUE(run.wait_for_err("the operator says abort", kAtMost)) << run.err();
 }
 
 TEST_F(OperatorTest, WhereNothingRunsHeIsToldSo) {

@@ -4,13 +4,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <poll.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <functional>
 #include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <random>
 #include <string>
@@ -41,6 +44,13 @@ using std::chrono::milliseconds;
 constexpr milliseconds kAskAgain{20}, kSayAgain{100};
 
 std::atomic<bool> g_left{false};
+
+/// Goes on while the machine sleeps.
+Duration since_boot() {
+  timespec now{};
+  clock_gettime(CLOCK_BOOTTIME, &now);
+  return std::chrono::seconds{now.tv_sec} + Duration{now.tv_nsec};
+}
 
 const PortBinding* port_of(const std::vector<PortBinding>& ports, std::string_view type) {
   const auto found =
@@ -73,12 +83,13 @@ TaskTopics find_task(const DeploymentConfig& deployment, const std::string& comp
 /// One operator at a running task.
 class Dialogue {
  public:
-  Dialogue(const OperatorOptions& options, const DeploymentConfig& deployment, TaskLink& link)
-      : options_{options}, deployment_{deployment}, link_{link} {}
+  using Join = std::function<std::unique_ptr<TaskLink>()>;
+  Dialogue(const OperatorOptions& options, const DeploymentConfig& deployment, Join join)
+      : options_{options}, deployment_{deployment}, join_{std::move(join)}, link_{join_()} {}
 
   /// kOk once the task has told what it does, or when the operator at a terminal has left before.
   int meet() {
-    if (wait([&] { return link_.state() || link_.tasks().size() > 1; })) return kOk;
+    if (wait([&] { return link_->state() || link_->tasks().size() > 1; })) return kOk;
     if (g_left) return options_.say.empty() && is_terminal_ ? kOk : left_before(options_.say);
     fmt::print(stderr,
                "armature: no task of '{}' tells what it does in domain {} within {:g} s; is it "
@@ -89,15 +100,15 @@ class Dialogue {
 
   int say(const std::string& word, const std::string& step) {
     // Whoever confirms must know that nobody else says that he is the task.
-    if (word == "confirm") wait([&] { return link_.knows_all(); });
+    if (word == "confirm") wait([&] { return link_->knows_all(); });
     if (is_ambiguous()) return kFailed;
     const std::uint64_t id = ids_();
     Steady::time_point told{};
     const bool answered = wait([&] {
-      if (told != Steady::time_point{} && link_.answer()) return true;
-      if (!link_.state() || Steady::now() - told < kSayAgain) return false;
+      if (told != Steady::time_point{} && link_->answer()) return true;
+      if (!link_->state() || Steady::now() - told < kSayAgain) return false;
       told = Steady::now();
-      link_.say(id, word, step);
+      link_->say(id, word, step);
       return false;
     });
     if (!answered) {
@@ -111,7 +122,7 @@ class Dialogue {
                  options_.timeout_s);
       return kTimedOut;
     }
-    const std::string refused = link_.answer().value_or("");
+    const std::string refused = link_->answer().value_or("");
     if (refused.empty()) return kOk;
     fmt::print(stderr, "armature: '{}' was refused: {}\n", word, terminal_text(refused));
     return kFailed;
@@ -120,7 +131,7 @@ class Dialogue {
   /// The step that a single "confirm" means: `step`, or the only one that the task asks about. Who
   /// does not see what waits would confirm whatever has come up: of several he must name one.
   Expected<std::string> step_meant(const std::string& step) const {
-    const auto state = link_.state();
+    const auto state = link_->state();
     if (!step.empty() || !state) return step;
     const std::vector<std::string> asking = steps_with_question(*state);
     const std::string waits = step_that_asks(*state);
@@ -131,9 +142,10 @@ class Dialogue {
   }
 
   void show_if_changed() {
-    link_.look();
-    const auto state = link_.state();
+    look();
+    const auto state = link_->state();
     if (!state) return show_that_it_is_gone();
+    gone_ = false;
     const std::string summary = summary_of(*state);
     if (summary == shown_) return;
     shown_ = summary;
@@ -147,7 +159,8 @@ class Dialogue {
 
   /// A question of a task that is gone waits for no answer.
   void show_that_it_is_gone() {
-    if (!link_.tasks().empty() || std::exchange(shown_, {}).empty()) return;
+    if (!link_->tasks().empty() || std::exchange(shown_, {}).empty()) return;
+    gone_ = true;
     question_.show("", Steady::now());
     fmt::print(stderr, "armature: the task of '{}' is gone\n", deployment_.name);
   }
@@ -163,7 +176,7 @@ class Dialogue {
     std::string line;
     for (bool told = false; !g_left;) {
       show_if_changed();
-      if (link_.tasks().size() > 1 && !std::exchange(told, true)) is_ambiguous();
+      if (link_->tasks().size() > 1 && !std::exchange(told, true)) is_ambiguous();
       if (!read_line(line)) continue;
       if (without_blanks(line) == "q" || ended_) break;
       worst = std::max(worst, answer(line));
@@ -184,6 +197,10 @@ class Dialogue {
     const std::string line{without_blanks(typed)};
     if (line.empty()) return kOk;
     const std::string word = word_of(line);
+    if (!word.empty() && gone_) {
+      fmt::print(stderr, "armature: the task is gone, and nobody has heard '{}'\n", word);
+      return kFailed;
+    }
     if (word == "confirm") return confirm();
     if (!word.empty()) return say(word, "");
     fmt::print(stderr, "armature: '{}' is no word of an operator\n", line);
@@ -200,20 +217,38 @@ class Dialogue {
 
   /// Which of several is the task cannot be known: nothing is said to any of them.
   bool is_ambiguous() const {
-    if (link_.tasks().size() < 2) return false;
+    if (link_->tasks().size() < 2) return false;
     fmt::print(stderr,
                "armature: {} writers say that they are the task of deployment '{}', and no word is "
                "said to any: {}. End the one that is not meant, or give each a domain of its own; "
                "`armature stop` stops every arm meanwhile\n",
-               link_.tasks().size(), deployment_.name, fmt::join(link_.tasks(), ", and "));
+               link_->tasks().size(), deployment_.name, fmt::join(link_->tasks(), ", and "));
     return true;
+  }
+
+  /// Whoever has not looked for some time, as he was halted or his laptop slept, is lost to the
+  /// task and it to him, and not always do they find each other again: he meets it anew.
+  void look() {
+    constexpr Duration kLost = seconds(0.5);  // half of what a silent program is waited for
+    const Duration stood_still = since_boot() - looked_at_;
+    if (stood_still > kLost) {
+      fmt::print(stderr,
+                 "armature: this dialogue stood still for {:.1f} s; it meets the task anew\n",
+                 to_seconds(stood_still));
+      link_.reset();
+      link_ = join_();
+      shown_.clear();
+      question_.show("", Steady::now());
+    }
+    looked_at_ = since_boot();
+    link_->look();
   }
 
   template <class Done>
   bool wait(const Done& done) {
     const auto give_up = Steady::now() + seconds(options_.timeout_s);
     while (!g_left && Steady::now() < give_up) {
-      link_.look();
+      look();
       if (done()) return true;
       std::this_thread::sleep_for(kAskAgain);
     }
@@ -238,12 +273,14 @@ class Dialogue {
 
   const OperatorOptions& options_;
   const DeploymentConfig& deployment_;
-  TaskLink& link_;
+  const Join join_;
+  std::unique_ptr<TaskLink> link_;
+  Duration looked_at_ = since_boot();
   std::mt19937_64 ids_{std::random_device{}()};
   std::string shown_, typed_;
   ShownQuestion question_;
   const bool is_terminal_ = isatty(STDIN_FILENO) == 1;
-  bool ended_ = false;
+  bool ended_ = false, gone_ = false;
 };
 
 /// What the file says and what the options add to it.
@@ -266,8 +303,9 @@ int be_operator(const OperatorOptions& options) {
   PluginRegistry plugins;
   const DeploymentConfig deployment = read_named(options.source, plugins);
   const TaskTopics topics = find_task(deployment, options.component);
-  TaskLink link{plugins, topics, network_of(options, deployment)};
-  Dialogue dialogue{options, deployment, link};
+  const NetworkOptions network = network_of(options, deployment);
+  Dialogue dialogue{options, deployment,
+                    [&] { return std::make_unique<TaskLink>(plugins, topics, network); }};
   if (const int code = dialogue.meet(); code != kOk) return code;
   if (options.say.empty()) return dialogue.listen();
   const auto step = options.say == "confirm" ? dialogue.step_meant(options.step) : options.step;

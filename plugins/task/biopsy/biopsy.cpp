@@ -193,7 +193,11 @@ Expected<void> Biopsy::begin_confirmed(Time now) {
 }
 
 Expected<void> Biopsy::go_back(Time now) {
-  if (heading_ > Heading::onward) return armature::refuse("the needle goes back already");
+  if (heading_ > Heading::onward) {
+    return armature::refuse(procedure_.paused()
+                                ? "the needle is paused on its way back: resume goes on with it"
+                                : "the needle goes back already");
+  }
   if (!stands_where_it_began()) return turn(Heading::back);
   const bool touches = parameters_.touch_markers;
   if (touches ? touching_.places().empty() : step() == Step::registration) {

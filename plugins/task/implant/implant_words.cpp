@@ -18,7 +18,10 @@ Expected<void> Implant::hear(const OperatorCommand& command, Time now) {
 Expected<void> Implant::go_back(Time now) {
   switch (phase_) {
     case Phase::going_back:
-    case Phase::aborting: return armature::refuse("the tool goes back already");
+    case Phase::aborting:
+      return armature::refuse(procedure_.paused()
+                                  ? "the tool is paused on its way back: resume goes on with it"
+                                  : "the tool goes back already");
     case Phase::withdrawing:
     case Phase::changing_tool:
       return armature::refuse("the sites are drilled, or served: the tool is out");

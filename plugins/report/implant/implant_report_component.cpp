@@ -80,7 +80,8 @@ class ImplantReport final : public Component {
   void summarize(Summary& summary) const override {
     if (state_ == "refused") summary.failed("refused", trouble_);
     if (state_ == "aborted") summary.failed("aborted", "by the operator");
-    if (state_ == "drilled" || state_ == "placed") tell_drilling(summary);
+    // Holes that were drilled are there, whatever became of the implants.
+    if (drilled_at_ || state_ == "drilled" || state_ == "placed") tell_drilling(summary);
     if (state_ == "placed") tell_placing(summary);
     constexpr const char *kSpeed = "final_speed_rad_s",
                          *kTitle = "speed of the fastest joint at the end [rad/s]";

@@ -305,6 +305,17 @@ TEST_F(ImplantReportTest, ARefusedDrillingEndsTheRunOnceTheArmHadTimeToHold) {
   EXPECT_EQ(report_.figures().metrics.at("final_speed_rad_s"), 0);
 }
 
+TEST_F(ImplantReportTest, TellsOfTheBoresAlsoWhereWhatFollowedThemWasRefused) {
+  show_room();
+  drill();
+  tell("placing");
+  report_.step(6);
+  tell("refused", "the handpiece does not turn");
+  report_.step(7);
+  EXPECT_EQ(report_.figures().status, "refused");
+  EXPECT_NEAR(report_.figures().metrics.at("site_error_mm"), 0.3, 1e-9);
+}
+
 TEST_F(ImplantReportTest, ASiteThatTheDrillNeverCameToHasNoError) {
   show_room();
   tell("drilled");

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string_view>
 
 #include "armature/kinds/made_for_robot.hpp"
@@ -48,7 +49,11 @@ struct IkBranches {
   const IkBranch* begin() const { return branch.data(); }
   const IkBranch* end() const { return branch.data() + count; }
   void clear() { count = 0; }
-  IkBranch& add() { return branch[static_cast<std::size_t>(count++)]; }
+  /// Throws std::length_error when there is no more room.
+  IkBranch& add() {
+    if (count == kCapacity) throw std::length_error{"the solver adds more than 16 branches"};
+    return branch[static_cast<std::size_t>(count++)];
+  }
 };
 
 /// Values of the redundancy, from `lower` to `upper`, at which one branch keeps the joint limits.

@@ -27,6 +27,7 @@ class EchoIk final : public IkSolver {
   static inline IkGoal asked;
   static inline IkStatus answer;
   static inline bool throws = false;
+  static inline int more_branches = 0;
   static inline std::optional<JointVector> instead;
   static inline std::optional<double> asked_last;
 
@@ -46,6 +47,7 @@ class EchoIk final : public IkSolver {
                  .within_limits = true};
     out.add() = {.label = "seed", .q = seed, .singular = true};
     if (instead) out.add() = {.label = "instead", .q = *instead, .within_limits = true};
+    for (int i = 0; i < more_branches; ++i) out.add() = {.label = "one more", .q = seed};
     if (throws) throw std::runtime_error{"the matrix is singular"};
     return answer;
   }
@@ -268,6 +270,14 @@ TEST_F(IkHostTest, AnExceptionOfTheSolverIsAReasonAndTheNextRequestIsAnswered) {
   EXPECT_TRUE(answer.solutions_().empty());
   EchoIk::throws = false;
   EXPECT_EQ(ask(request(2)).status_(), "ok");
+}
+
+TEST_F(IkHostTest, ASolverThatAddsMoreBranchesThanThereIsRoomForIsToldSo) {
+  EchoIk::more_branches = IkBranches::kCapacity - 2;
+  EXPECT_EQ(ask(request(1)).status_(), "ok");
+  ++EchoIk::more_branches;
+  EXPECT_EQ(ask(request(2)).reason_(), "the plugin threw: the solver adds more than 16 branches");
+  EchoIk::more_branches = 0;
 }
 
 }  // namespace

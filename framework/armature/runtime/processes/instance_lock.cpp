@@ -2,10 +2,13 @@
 #include "armature/runtime/processes/instance_lock.hpp"
 
 #include <fmt/format.h>
+#include <pthread.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <array>
+#include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <cstddef>
@@ -62,6 +65,32 @@ std::optional<Holder> holder_of(const Address& address) {
   return told;
 }
 
+/// Locks of this process. What it forks, as a library may, and lets live on, holds none of them.
+constexpr std::size_t kMaxLocks = 64;
+std::array<std::atomic<int>, kMaxLocks> g_locks;  // descriptor + 1; 0: free
+
+void let_go_in_child() {
+  for (auto& lock : g_locks) {
+    if (const int held = lock.exchange(0); held > 0) close(held - 1);
+  }
+}
+
+void keep_from_children(int socket) {
+  static const int told = pthread_atfork(nullptr, nullptr, let_go_in_child);
+  static_cast<void>(told);
+  for (auto& lock : g_locks) {
+    int free = 0;
+    if (lock.compare_exchange_strong(free, socket + 1)) return;
+  }
+}
+
+void forget(int socket) {
+  for (auto& lock : g_locks) {
+    int held = socket + 1;
+    if (lock.compare_exchange_strong(held, 0)) return;
+  }
+}
+
 }  // namespace
 
 Expected<InstanceLock> InstanceLock::take(const std::string& name) {
@@ -73,6 +102,7 @@ Expected<InstanceLock> InstanceLock::take(const std::string& name) {
   if (own < 0) return refuse(fmt::format("nobody knows: no Unix socket: {}", std::strerror(errno)));
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (bind(own, address.get(), address.size) == 0 && listen(own, SOMAXCONN) == 0) {
+      keep_from_children(own);
       return InstanceLock{own};
     }
     if (const auto holder = holder_of(address)) {
@@ -109,7 +139,9 @@ std::vector<InstanceLock::Held> InstanceLock::held(const std::string& beginning)
 }
 
 InstanceLock::~InstanceLock() {
-  if (socket_ >= 0) close(socket_);
+  if (socket_ < 0 || getpid() != owner_) return;
+  forget(socket_);
+  close(socket_);
 }
 
 }  // namespace armature

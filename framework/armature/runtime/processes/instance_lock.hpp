@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sys/types.h>
+#include <unistd.h>
 
 #include <string>
 #include <utility>
@@ -36,6 +37,7 @@ class InstanceLock {
  private:
   explicit InstanceLock(int socket) : socket_{socket} {}
   int socket_;
+  pid_t owner_ = getpid();  // what that forks holds no lock
 };
 
 }  // namespace armature

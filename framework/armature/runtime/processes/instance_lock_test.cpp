@@ -48,6 +48,23 @@ TEST(InstanceLock, IsFreeAgainWhenItsHolderIsKilled) {
   for (const int end : taken) close(end);
 }
 
+TEST(InstanceLock, IsNotHeldByWhatItsHolderHasForked) {
+  std::array<int, 2> lives{};
+  ASSERT_EQ(pipe(lives.data()), 0);
+  pid_t forked = 0;
+  {
+    const auto held = InstanceLock::take(kName);
+    forked = fork();
+    if (forked == 0 && write(lives[1], "x", 1) == 1) pause();
+    char byte = 0;
+    ASSERT_EQ(read(lives[0], &byte, 1), 1);
+  }
+  EXPECT_TRUE(InstanceLock::take(kName)) << "a library that forks lives on without it";
+  kill(forked, SIGKILL);
+  waitpid(forked, nullptr, 0);
+  for (const int end : lives) close(end);
+}
+
 TEST(InstanceLock, KeepsNamesApartHoweverLongTheyAre) {
   const std::string same(200, 'x');
   const auto first = InstanceLock::take(kName + same + "a");

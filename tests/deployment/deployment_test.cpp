@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <nlohmann/json.hpp>
 
 #include "armature/config/document.hpp"
@@ -207,6 +208,38 @@ TEST_F(DeploymentTest, AMetricThatIsNotFiniteIsAFaultWithAndWithoutAGoal) {
   EXPECT_EQ(told.reasons, std::vector<std::string>{defect});
   const Told judged = run("", ", params: {reports_nan: true}", "goals: {oldest_order_s: 1}\n");
   EXPECT_EQ(judged.reasons, (std::vector<std::string>{defect, "oldest_order_s is not finite"}));
+}
+
+TEST_F(DeploymentTest, AMetricBelow0WhosePluginDoesNotSaySoIsAFaultAndMeetsNoGoalUnseen) {
+  const Told told = run("", ", params: {reports_debts: true}", "goals: {orders_again: 1}\n");
+  EXPECT_EQ(told.status, "fault");
+  EXPECT_EQ(told.reasons,
+            std::vector<std::string>{
+                "ear: plugin 'test/ear' reports the metric 'orders_again', which is -3, and its "
+                "plugin.yaml does not say that it may be below 0 (signed: true): every goal would "
+                "be met"});
+}
+
+TEST_F(DeploymentTest, AStoryThatFailedWithoutAWordHasFailed) {
+  const Told told = run(", params: {fails: true}", "");
+  EXPECT_EQ(told.status, "failed");
+  EXPECT_TRUE(told.json.starts_with(R"({"status":"failed","reason":"the heart stood still",)"));
+}
+
+TEST_F(DeploymentTest, WhatIsPublishedInAConstructorIsRefusedSinceNobodyWouldHearIt) {
+  try {
+    run(", params: {beats_when_made: true}", "");
+    FAIL();
+  } catch (const config::ConfigError& error) {
+    EXPECT_STREQ(error.what(),
+                 "test.yaml:5:3: component 'beat': it publishes 'beat' in its constructor, where "
+                 "nobody hears it; publish in the first step");
+  }
+}
+
+TEST_F(DeploymentTest, AComponentThatRoundsOtherwiseDoesSoAloneOnItsThread) {
+  run(", params: {takes: rounding}", "");
+  EXPECT_EQ(std::fegetround(), FE_TONEAREST);
 }
 
 TEST_F(DeploymentTest, WhatCutARunOffIsToldInTableAndJson) {

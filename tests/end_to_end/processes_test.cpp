@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "armature/recording/mcap_reader.hpp"
+#include "armature/values/file_content.hpp"
 #include "armature/values/temporary_folder.hpp"
 #include "deployment_run.hpp"
 
@@ -59,6 +60,59 @@ TEST(TwoProcesses, AComponentThatFailsInTheOtherOneEndsTheRunWithItsFault) {
     EXPECT_NE(run.command.err.find("out of breath"), std::string::npos) << run.text();
     EXPECT_FALSE(run.command.timed_out);
   }
+}
+
+TEST(TwoProcesses, WhatTheOtherOnesComponentsSayAtTheEndIsSaidOfTheRun) {
+  const auto gasping = run_pulse({"components.beat.params.gasps=true",
+                                  "components.ear.params.listens_s=1000", "run.time_limit_s=1"});
+  EXPECT_EQ(gasping.status(), "degraded") << gasping.text();
+  EXPECT_THAT(gasping.report, testing::HasSubstr(R"("unwell":["beat: out of breath"])"));
+
+  const TemporaryFolder folder;
+  const std::string files = folder / "report";
+  DeploymentStart start =
+      pulse({"components.beat.params.fails=true", "components.beat.params.writes_files=true",
+             "components.ear.params.listens_s=0.3"});
+  start.report_folder = files;
+  const auto failed = run_deployment(start);
+  EXPECT_EQ(failed.command.exit_code, 1) << failed.text();
+  EXPECT_EQ(failed.status(), "failed");
+  EXPECT_EQ(failed.word("reason"), "the heart stood still");
+  EXPECT_TRUE(std::filesystem::exists(files + "/beats.txt"));
+  EXPECT_THAT(content_of(files + "/report.sha256"), testing::HasSubstr("  beats.txt\n"));
+}
+
+TEST(TwoProcesses, ATimeLimitIsTheSameForBoth) {
+  for (int i = 0; i < 4; ++i) {
+    const auto run = run_pulse(
+        {"components.ear.params.listens_s=1000", "run.time_limit_s=0.6", "goals={delay_s: 1000}"});
+    EXPECT_EQ(run.status(), "goals_missed") << run.text();
+    EXPECT_EQ(run.word("ended_by"), "the time limit of 0.6 s is over");
+  }
+}
+
+TEST(OneProcess, WhatAStepTakesFromTheWholeProcessIsTakenBack) {
+  const TemporaryFolder folder;
+  DeploymentStart start =
+      pulse({"components.beat.process=main", "components.beat.params.takes=folder",
+             "components.ear.params.listens_s=0.3"});
+  start.report_folder = folder / "report";
+  const auto run = run_deployment(start);
+  EXPECT_THAT(run.command.err,
+              testing::HasSubstr("a plugin has changed the folder that the process "
+                                 "works in, to '/'; it is changed back\n"));
+  EXPECT_EQ(run.status(), "ok") << run.text();
+}
+
+TEST(OneProcess, AFileOfTheReportThatCannotBeWrittenNamesItsComponent) {
+  const TemporaryFolder folder;
+  DeploymentStart start =
+      pulse({"components.beat.process=main", "components.beat.params.throws_in=write_files",
+             "components.ear.params.listens_s=0.3"});
+  start.report_folder = folder / "report";
+  const auto run = run_deployment(start);
+  EXPECT_EQ(run.command.exit_code, 1) << run.text();
+  EXPECT_THAT(run.command.err, testing::HasSubstr("component 'beat': out of breath\n"));
 }
 
 TEST(TwoProcesses, OneThatEndsWithAnotherExitCodeThan0IsAFaultAlsoWhenItHasToldNone) {

@@ -109,6 +109,18 @@ TEST_F(PulledPlug, EverySignalThatEndsARunIsToldInItsOwnWords) {
   }
 }
 
+TEST_F(PulledPlug, AnArmComesToRestThoughAPluginHasTakenTheSignals) {
+  Command run{command({"components.taker={plugin: test/beat, topics: taker, params: {takes: "
+                       "signals}}"}),
+              options_};
+  ASSERT_TRUE(run.wait_for_err("has taken SIGINT for itself", kWithin)) << run.err();
+  ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
+  run.signal(SIGINT);
+  const CommandResult result = run.finish(kWithin);
+  EXPECT_THAT(result.err, ContainsRegex("runtime   stopping: interrupted\n(.|\n)*at rest\n"));
+  EXPECT_THAT(result.err, HasSubstr(kEndedAtRest));
+}
+
 /// The signals that a process handles.
 std::set<int> handled_by(pid_t pid) {
   std::ifstream status{"/proc/" + std::to_string(pid) + "/status"};

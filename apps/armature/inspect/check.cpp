@@ -17,6 +17,7 @@
 #include "armature/runtime/deployment_file/on_fault.hpp"
 #include "armature/runtime/plugins/exit_guard.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
+#include "armature/runtime/plugins/setup_error.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
 #include "inspect/origin_json.hpp"
@@ -96,8 +97,13 @@ void construct(DeploymentConfig config, PluginRegistry& plugins, Findings& findi
     findings.warnings.insert(findings.warnings.end(), warnings.begin(), warnings.end());
   }
   for (const auto& runner : constructed.runners()) {
-    for (std::string& text : runner->notes_for_check()) {
-      findings.notes.push_back({runner->name(), std::move(text)});
+    try {
+      for (std::string& text : runner->notes_for_check()) {
+        findings.notes.push_back({runner->name(), std::move(text)});
+      }
+    } catch (...) {
+      throw SetupError{fmt::format("component '{}': its notes for check failed: {}", runner->name(),
+                                   current_exception_text())};
     }
   }
 }

@@ -2,6 +2,7 @@
 #include "run/end_signals.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -22,6 +23,7 @@ namespace {
 constexpr std::array kOfOperator{SIGINT, SIGTERM, SIGQUIT};
 
 std::atomic<int> g_signal{0}, g_count{0}, g_of_operator{0};
+bool g_hangs_up = false;
 std::atomic<bool> g_json{false}, g_reports{false}, g_result_told{false};
 std::string g_report_file;  // set before any handler
 
@@ -113,9 +115,25 @@ void end_before_start() { handle(on_signal_before_start); }
 
 void stop_in_order() {
   handle(on_signal);
+  struct sigaction now {};
+  sigaction(SIGHUP, nullptr, &now);
+  g_hangs_up = now.sa_handler == on_signal;
   // No SIG_IGN, which the programs that a plugin starts would inherit.
   std::signal(SIGPIPE, [](int) {});
   std::signal(SIGTTOU, SIG_IGN);  // in the background it writes on, and is not halted
+}
+
+std::string taken_back() {
+  std::string first;
+  for (const int signal : {SIGINT, SIGTERM, SIGQUIT, SIGHUP}) {
+    struct sigaction now {};
+    sigaction(signal, nullptr, &now);
+    // Under nohup nobody listens to SIGHUP.
+    if (now.sa_handler == on_signal || (signal == SIGHUP && !g_hangs_up)) continue;
+    std::signal(signal, on_signal);
+    if (first.empty()) first = fmt::format("SIG{}", sigabbrev_np(signal));
+  }
+  return first;
 }
 
 std::optional<std::string> cause() {

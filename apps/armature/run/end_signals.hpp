@@ -31,6 +31,10 @@ void end_before_start();
 /// send, ends the process at once, and says so. A pipe whose reader is gone does not end it.
 void stop_in_order();
 
+/// Sets the handlers again where something in this process has taken them since: its name
+/// ("SIGINT"), of the first, or "".
+std::string taken_back();
+
 /// "interrupted", "terminated", "the terminal was closed" or "ended by SIGQUIT", once there has
 /// been a signal.
 std::optional<std::string> cause();

@@ -36,6 +36,7 @@ std::vector<std::string> process_arguments(const RunOptions& options, int domain
                                      std::to_string(origin.start.ns),
                                      "--run-id",
                                      origin.run};
+  if (options.report) arguments.insert(arguments.end(), {"--report-files", *options.report});
   if (options.timing) arguments.push_back("--timing");
   if (options.keep_running) arguments.push_back("--keep-running");
   if (options.inject) arguments.insert(arguments.end(), {"--inject", *options.inject});

@@ -22,6 +22,7 @@ class ReportList {
   void add_what(const std::function<void()>& write);
   /// A file of the folder, if it is there when the list is written.
   void add(const std::string& name) { names_.insert(name); }
+  const std::set<std::string>& names() const { return names_; }
   /// Throws std::runtime_error with the reason.
   void write() const;
 

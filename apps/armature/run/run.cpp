@@ -153,9 +153,56 @@ int conclude_main_by_hand(const RunOptions& options, const Deployment& deploymen
   return printed && report.status() == "ok" ? kOk : kFailed;
 }
 
+/// Hears from the components of a process that tells no figures only whether the scenario failed.
+class OnlyFailure final : public Summary {
+ public:
+  void metric(std::string, std::string, double) override {}
+  void series(std::string, std::string, std::vector<double>) override {}
+  void text(std::string, std::string, std::string) override {}
+  void not_measured(std::string, std::string, std::string) override {}
+  void does_not_apply(std::string, std::string, std::string) override {}
+  void failed(std::string status, std::string reason) override {
+    failed_ = {std::move(status), std::move(reason)};
+  }
+  const std::optional<std::pair<std::string, std::string>>& failed() const { return failed_; }
+
+ private:
+  std::optional<std::pair<std::string, std::string>> failed_;
+};
+
+/// Tells the main process how this one's components say that the run went.
+void tell_outcome(const Deployment& deployment, ChildWatch& watch) {
+  for (const std::string& unwell : deployment.unwell()) watch.tell("unwell", unwell);
+  OnlyFailure summary;
+  for (const auto& runner : deployment.runners()) {
+    if (deployment.is_hung(*runner)) continue;
+    deployment.tell_ending("summary", *runner);
+    runner->summarize(summary);
+  }
+  if (const auto& failed = summary.failed()) {
+    watch.tell("failed", fmt::format("{} {}", failed->first.empty() ? "failed" : failed->first,
+                                     failed->second));
+  }
+}
+
+/// Writes this process' files into the folder of the main one's report. Why it could not, or "".
+std::string write_report_files(const Deployment& deployment, const std::filesystem::path& folder,
+                               ChildWatch& watch) {
+  ReportList list{folder};
+  std::string failed;
+  list.add_what([&] { failed = write_component_files(deployment, folder); });
+  for (const std::string& name : list.names()) watch.tell("wrote", name);
+  return failed;
+}
+
 int conclude_child(const RunOptions& options, const Deployment& deployment, ChildWatch& watch,
                    WatchedEnd& end) {
-  const std::string fault = fault_of(deployment, watch);
+  tell_outcome(deployment, watch);
+  std::string fault = fault_of(deployment, watch);
+  if (!options.report_files.empty()) {
+    const std::string failed = write_report_files(deployment, options.report_files, watch);
+    if (fault.empty()) fault = failed;
+  }
   watch.tell_fault(fault);
   if (options.timing) watch.tell_timing(timing_of(deployment));
   if (options.json) print_out("{}", ending(fault.empty() ? "ok" : "fault", fault));
@@ -177,7 +224,20 @@ struct Process {
   int domain;
   Network network;
   RunOptions::Origin origin;
+  std::filesystem::path folder;  // that it was started in
 };
+
+/// What is written at the end stands where the run was started, whatever a plugin has done.
+void go_back_to(const std::filesystem::path& folder, Console& console) {
+  std::error_code none;
+  const auto here = std::filesystem::current_path(none);
+  if (here == folder) return;
+  console.tell(
+      fmt::format("a plugin has changed the folder that the process works in, to '{}'; it "
+                  "is changed back",
+                  here.string()));
+  std::filesystem::current_path(folder, none);
+}
 
 /// The name of a run: all of its processes have it, and no other run. Where the clock is simulated
 /// all begin at one time.
@@ -221,7 +281,11 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
     }
     throw;
   }
-  RunReport::Ending ending{.faults = watch.end_all(), .stopped = watch.interruption()};
+  go_back_to(process.folder, console);
+  RunReport::Ending ending{.faults = watch.end_all(),
+                           .unwell = children.unwell(),
+                           .failed = children.failed(),
+                           .stopped = watch.interruption()};
   // Somebody has looked at it for long enough: that is how such a run ends.
   if (options.keep_running && deployment.scenario_over() && ending.stopped == "interrupted") {
     ending.stopped.reset();
@@ -234,6 +298,7 @@ int run_main(const RunOptions& options, const Process& process, Deployment& depl
   if (options.timing) ending.timing = timing;
   const RunReport report{deployment, ending};
   ReportList list{options.report.value_or("")};
+  for (const std::string& name : children.written()) list.add(name);
   int code = conclude(options, deployment, report, list, console, end);
   tell_status_to_black_box(report.status(), deployment);
   if (!deployment.end_recording(figures_json(report, timing))) code = kFailed;
@@ -261,6 +326,7 @@ int run_other(const RunOptions& options, const Process& process, Deployment& dep
     if (recording && !watch.started()) remove_older(*recording);
     throw;
   }
+  go_back_to(process.folder, console);
   int code = process.name == kMainProcess
                  ? conclude_main_by_hand(options, deployment, watch, console, end)
                  : conclude_child(options, deployment, watch, end);
@@ -289,6 +355,7 @@ std::string starting_text(const DeploymentConfig& config) {
 
 int run(RunOptions options) {
   const bool is_child = !options.process.empty();
+  std::error_code no_folder;
   // Another process of a deployment just ends: its main process tells, and asks it for no JSON.
   if (!is_child || options.json) end_signals::end_before_start();
   if (is_child && options.control >= 0) prctl(PR_SET_PDEATHSIG, SIGKILL);  // until it can listen
@@ -306,7 +373,8 @@ int run(RunOptions options) {
                   .domain = options.domain.value_or(config.domain),
                   .network = find_network(config.dds),
                   .origin = options.origin.value_or(
-                      RunOptions::Origin{SystemClock{}.unix_minus_monotonic(), Time{}})};
+                      RunOptions::Origin{SystemClock{}.unix_minus_monotonic(), Time{}}),
+                  .folder = std::filesystem::current_path(no_folder)};
   check_name(config, "process", process.name, config.processes());
   check_name(config, "host", options.host, config.hosts());
   if (options.host != kMainHost) {

@@ -33,6 +33,7 @@ struct RunOptions {
   bool timing = false;        // tells how late and how long the steps were
   bool keep_running = false;  // when the scenario is over, until Ctrl-C
   std::optional<std::filesystem::path> report;
+  std::filesystem::path report_files;  // of another process: the folder of the main one's report
   bool records_for_page = false;      // into the report's folder, as the deployment records nothing
   std::optional<std::string> inject;  // a drill's fault, "motion:throw", struck at SIGUSR1
 };

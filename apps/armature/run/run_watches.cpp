@@ -35,6 +35,12 @@ bool has_loopback() {
 }  // namespace
 
 std::optional<std::string> ProcessWatch::interruption_now() {
+  if (const std::string taken = end_signals::taken_back();
+      !taken.empty() && !std::exchange(told_taken_, true)) {
+    console_->line("runtime", fmt::format("a plugin or its library has taken {} for itself; it is "
+                                          "taken back, and stops the run",
+                                          taken));
+  }
   if (!interruption_) interruption_ = end_signals::cause();
   if (!interruption_) interruption_ = console_->lost_reader();
   return interruption_;
@@ -229,6 +235,8 @@ std::optional<std::string> ChildWatch::stop_cause() {
   return cause;
 }
 
+Duration ChildWatch::grace() const { return alone() ? Duration{} : kAnswersWithin; }
+
 void ChildWatch::stopping(const std::string& cause, bool scenario_over) {
   if (stop_.empty()) {
     if (scenario_over) control_.send("over");
@@ -269,7 +277,11 @@ void ChildWatch::tell_timing(const RunTiming& timing) {
 }
 
 void ChildWatch::tell_fault(const std::string& fault) {
-  if (!fault.empty()) control_.send("fault " + fault);
+  if (!fault.empty()) tell("fault", fault);
+}
+
+void ChildWatch::tell(std::string_view word, const std::string& text) {
+  control_.send(fmt::format("{} {}", word, text));
 }
 
 }  // namespace armature

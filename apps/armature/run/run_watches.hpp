@@ -37,6 +37,7 @@ class ProcessWatch : public RunWatch {
  private:
   Console* console_;
   ClockSteps steps_;
+  bool told_taken_ = false;  // that a plugin took a signal
   std::optional<std::string> interruption_;
 };
 
@@ -94,6 +95,7 @@ class ChildWatch final : public ProcessWatch {
 
   bool may_start(const std::optional<std::string>& waiting) override;
   std::optional<std::string> stop_cause() override;
+  Duration grace() const override;
   bool scenario_over() const override { return scenario_over_; }
   void stopping(const std::string& cause, bool scenario_over) override;
   bool may_end(const std::vector<std::string>& moving, Duration left) override;
@@ -107,6 +109,8 @@ class ChildWatch final : public ProcessWatch {
   bool started() const { return started_; }
   /// Tells the main process what failed here, "" for nothing.
   void tell_fault(const std::string& fault);
+  /// Tells the main process something else of the end: `word` is one of ChildProcesses.
+  void tell(std::string_view word, const std::string& text);
   /// Tells the main process, or without one the operator, who was late.
   void tell_timing(const RunTiming& timing);
 

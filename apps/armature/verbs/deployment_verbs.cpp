@@ -29,6 +29,7 @@ void add_handed_over(CLI::App& verb, RunOptions& options) {
   };
   verb.add_option("--control", options.control)->group("");
   verb.add_option("--inject", options.inject)->group("");
+  verb.add_option("--report-files", options.report_files)->group("");
   verb.add_option_function<std::int64_t>(
           "--clock-offset-ns", [origin](std::int64_t ns) { origin().clock_offset = Duration{ns}; })
       ->group("");

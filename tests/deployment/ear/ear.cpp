@@ -67,7 +67,8 @@ class Ear final : public Component {
     summary.metric("oldest_s", "oldest beat [s]", oldest_s_);
     summary.metric("oldest_young_s", "oldest young beat [s]", oldest_young_s_);
     summary.metric("orders", "commands", orders_);
-    summary.metric("orders_again", "commands told again", orders_again_);
+    summary.metric("orders_again", "commands told again",
+                   parameters_.reports_debts ? -3 : orders_again_);
     summary.metric("oldest_order_s", "oldest command [s]",
                    parameters_.reports_nan ? std::nan("") : oldest_order_s_);
     if (parameters_.undeclared) summary.metric("surprise_s", "surprise [s]", 1);

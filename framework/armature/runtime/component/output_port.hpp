@@ -41,7 +41,9 @@ class OutputPort {
     return inbox_->tap() ? inbox_->tap()->has_subscribers(truly) : truly;
   }
   void publish(SampleRef sample) {
-    if (closed()) return;
+    const State state = state_.load(std::memory_order_acquire);
+    if (state == State::closed) return;
+    if (state == State::not_open) throw_not_open();
     SampleInfo& info = sample.mutable_info();
     info.writer = writer_;
     info.sequence = topic_->next_sequence();
@@ -49,18 +51,22 @@ class OutputPort {
     if (inbox_->tap()) inbox_->tap()->published(sample);
     delivery_->publish(*topic_, std::move(sample));
   }
+  /// The component is constructed. Before, its readers are not: what it published would be lost.
+  void open() { state_.store(State::open, std::memory_order_release); }
   /// Nothing is published from now on, whichever thread of the component tries. Any thread.
-  void close() { closed_.store(true, std::memory_order_release); }
+  void close() { state_.store(State::closed, std::memory_order_release); }
 
  private:
-  bool closed() const { return closed_.load(std::memory_order_acquire); }
+  enum class State : std::uint8_t { not_open, open, closed };
+  bool closed() const { return state_.load(std::memory_order_acquire) == State::closed; }
+  [[noreturn]] void throw_not_open() const;
 
   PortSpec spec_;
   Topic* topic_;
   Delivery* delivery_;
   const Inbox* inbox_;
   std::uint32_t writer_;
-  std::atomic<bool> closed_{false};
+  std::atomic<State> state_{State::not_open};
 };
 
 }  // namespace armature

@@ -86,11 +86,12 @@ std::optional<std::string> Deployment::stop_cause(RunWatch& watch, Time start) {
   }
   if (std::string hang = hang_fault(); !hang.empty()) return hang;
   if (scenario_over_ && !options_.keeps_running) return "the scenario is over";
+  // Also of a run whose time limit another process has told first.
+  timed_out_ = config_.time_limit_s > 0 && !options_.keeps_running &&
+               clock_->now() - start > seconds(config_.time_limit_s) + watch.grace();
   if (is_time_to_ask()) {
     if (auto cause = watch.stop_cause()) return cause;
   }
-  if (options_.keeps_running) return std::nullopt;
-  timed_out_ = config_.time_limit_s > 0 && clock_->now() - start > seconds(config_.time_limit_s);
   if (timed_out_) return fmt::format("the time limit of {:g} s is over", config_.time_limit_s);
   return std::nullopt;
 }

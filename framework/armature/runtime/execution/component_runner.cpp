@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "armature/runtime/deployment_file/injected_fault.hpp"
+#include "armature/runtime/execution/float_environment.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/plugins/setup_error.hpp"
 
@@ -29,7 +30,13 @@ class ComponentRunner::Running {
       : runner_{runner}, component_{runner.name_, phase}, start_{read_clock(CLOCK_MONOTONIC)} {
     runner_.running_since_ns_.store(start_.count(), std::memory_order_relaxed);
   }
-  ~Running() { runner_.running_since_ns_.store(0, std::memory_order_relaxed); }
+  ~Running() {
+    runner_.running_since_ns_.store(0, std::memory_order_relaxed);
+    if (!floats_.restore() || std::exchange(runner_.told_floats_, true)) return;
+    runner_.reporter_->log(
+        "it has changed how its thread computes (rounding, traps or the smallest numbers), which "
+        "is set back after each step: the others on this thread would compute otherwise");
+  }
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
   Duration start() const { return start_; }
@@ -37,6 +44,7 @@ class ComponentRunner::Running {
  private:
   ComponentRunner& runner_;
   RunningComponent component_;
+  FloatEnvironment floats_;
   Duration start_;
 };
 

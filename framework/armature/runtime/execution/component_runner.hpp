@@ -52,6 +52,7 @@ class ComponentRunner {
   void install(std::shared_ptr<PluginLibrary> library, std::unique_ptr<Component> component) {
     library_ = std::move(library);
     component_ = std::move(component);
+    for (OutputPort& output : outputs_) output.open();
   }
   Component& component() { return *component_; }
 
@@ -151,6 +152,7 @@ class ComponentRunner {
   std::atomic<bool> faulted_{false}, finished_{false};
   std::atomic<bool> stop_requested_{false}, stopped_{false};
   bool stop_begun_ = false;  // of the executor's thread
+  bool told_floats_ = false;
   bool threads_started_ = false;
   std::atomic<std::uint64_t> activations_{0}, overruns_{0};
   StepTimes times_;

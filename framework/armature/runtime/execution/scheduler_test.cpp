@@ -165,6 +165,7 @@ TEST(ComponentRunner, AFaultEndsItsOutputsWhicheverOfItsThreadsStillPublishes) {
   const auto runner = make_runner("camera", 0, [](Time) { throw std::runtime_error("no light"); });
   OutputPort& output =
       runner->outputs().emplace_back(PortSpec{.name = "n"}, topic, scheduler, runner->inbox());
+  output.open();
   output.publish(topic.loan());
   EXPECT_EQ(topic.published(), 1U);
   runner->activate({});

@@ -18,6 +18,8 @@ namespace {
 [[gnu::tls_model("initial-exec")]] thread_local const char* t_phase = nullptr;
 [[gnu::tls_model("initial-exec")]] thread_local const char* t_what = nullptr;
 
+pid_t g_process = 0;  // a process that a plugin forks is not ours, and its crash not either
+
 constexpr std::array kCrashes{SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT};
 constexpr std::size_t kStackSize = 64 * 1024;
 
@@ -48,6 +50,10 @@ class Line {
 };
 
 void on_crash(int signal) {
+  if (getpid() != g_process) {
+    raise(signal);
+    return;
+  }
   Line line;
   line.add("armature: ");
   if (const RunningCode running = running_code(); running.name) {
@@ -102,6 +108,7 @@ CrashStack::~CrashStack() {
 
 void name_crashing_components() {
   if (kSanitized) return;  // it tells more by itself
+  g_process = getpid();
   static thread_local const CrashStack stack;
   struct sigaction action {};
   action.sa_handler = on_crash;

@@ -107,6 +107,12 @@ void ChildProcesses::hear(Child& child) {
     if (word == "moving") child.moving = text;
     if (word == "trouble") troubles_.push_back(Time{std::atoll(text.c_str())});
     if (word == "timing") child.timing.push_back(text);
+    if (word == "unwell") unwell_.push_back(text);
+    if (word == "wrote") written_.push_back(text);
+    if (word == "failed" && !failed_) {
+      const std::size_t end = text.find(' ');
+      failed_ = {text.substr(0, end), text.substr(std::min(end, text.size() - 1) + 1)};
+    }
     if (word == "fault") {
       child.told_fault = true;
       faults_.push_back(fmt::format("{}: {}", child.label, text));

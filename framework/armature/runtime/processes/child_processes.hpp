@@ -31,6 +31,9 @@ namespace armature ARMATURE_EXPORT {
 ///   moving TEXT       while it is stopping: what is not at rest; nothing when all is
 ///   trouble NS        that something has gone wrong in it then, by the deployment's clock [ns]
 ///   fault TEXT        what failed in it
+///   unwell TEXT       a component of it that was degraded or stalled when it began to stop
+///   failed WORD TEXT  the scenario's failure, as a component of it says, and why
+///   wrote NAME        a file that it wrote into the folder of the report
 ///   timing TEXT       how late and how long an executor or a component of it was (run_timing.hpp)
 /// and the main one: start, over, trouble NS, stop TEXT, end. A process whose main one is gone
 /// comes to rest by itself and ends. The agent of a host says, of itself and of its processes:
@@ -84,6 +87,12 @@ class ChildProcesses {
   /// What went wrong with them: ended by themselves, failed, were stopped for too long.
   const std::vector<std::string>& faults() const { return faults_; }
 
+  const std::vector<std::string>& unwell() const { return unwell_; }
+  /// Status and reason, of the first that told one.
+  const std::optional<std::pair<std::string, std::string>>& failed() const { return failed_; }
+  /// Names of files in the folder of the report.
+  const std::vector<std::string>& written() const { return written_; }
+
   /// Adds what they have told of their timing.
   void add_timing(RunTiming& timing) const;
 
@@ -125,7 +134,8 @@ class ChildProcesses {
   std::deque<std::string> notes_;  // not told yet
   std::set<std::string> doubled_;  // hosts, as which several answer; told
   std::deque<Time> troubles_;      // the same
-  std::vector<std::string> faults_;
+  std::vector<std::string> faults_, unwell_, written_;
+  std::optional<std::pair<std::string, std::string>> failed_;
 };
 
 }  // namespace armature

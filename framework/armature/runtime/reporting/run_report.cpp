@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "armature/runtime/plugins/running_component.hpp"
 #include "armature/runtime/plugins/setup_error.hpp"
 #include "armature/runtime/reporting/output_folder.hpp"
 #include "armature/runtime/reporting/write_atomically.hpp"
@@ -32,26 +33,36 @@ RunReport::RunReport(const Deployment& deployment, const Ending& ending) {
   }
   tell_apart();
   unwell_ = deployment.unwell();
+  unwell_.insert(unwell_.end(), ending.unwell.begin(), ending.unwell.end());
+  if (story_status_.empty() && ending.failed) failed(ending.failed->first, ending.failed->second);
   judge(deployment, ending);
   timing_ = ending.timing;
 }
 
-void RunReport::expect_declared(const std::string& key) {
+const MetricSpec* RunReport::expect_declared(const std::string& key) {
   const auto& declared = speaker_->manifest->measures;
-  if (std::ranges::find(declared, key, &MetricSpec::name) != declared.end()) return;
-  defects_.push_back(fmt::format(
-      "{}: plugin '{}' reports the metric '{}', which its plugin.yaml does not declare under "
-      "'measures:'",
-      speaker_->name, speaker_->manifest->id, key));
+  const auto found = std::ranges::find(declared, key, &MetricSpec::name);
+  if (found != declared.end()) return &*found;
+  add_defect(key, "which its plugin.yaml does not declare under 'measures:'");
+  return nullptr;
+}
+
+void RunReport::add_defect(const std::string& key, const std::string& what) {
+  defects_.push_back(fmt::format("{}: plugin '{}' reports the metric '{}', {}", speaker_->name,
+                                 speaker_->manifest->id, key, what));
 }
 
 void RunReport::metric(std::string key, std::string title, double value) {
-  expect_declared(key);
+  const MetricSpec* declared = expect_declared(key);
   if (!std::isfinite(value)) {
-    defects_.push_back(fmt::format(
-        "{}: plugin '{}' reports the metric '{}', which is not finite; what was not measured is "
-        "told with its reason, by Summary::not_measured()",
-        speaker_->name, speaker_->manifest->id, key));
+    add_defect(key,
+               "which is not finite; what was not measured is told with its reason, by "
+               "Summary::not_measured()");
+  } else if (value < 0 && declared && !declared->may_be_negative) {
+    add_defect(key,
+               fmt::format("which is {:g}, and its plugin.yaml does not say that it may be below 0 "
+                           "(signed: true): every goal would be met",
+                           value));
   }
   figures_.push_back({std::move(key), std::move(title), value});
 }
@@ -75,7 +86,7 @@ void RunReport::does_not_apply(std::string key, std::string title, std::string w
                       .inapplicable = std::move(why)});
 }
 void RunReport::failed(std::string status, std::string reason) {
-  story_status_ = std::move(status);
+  story_status_ = status.empty() || status == "ok" ? "failed" : std::move(status);
   story_reason_ = std::move(reason);
 }
 
@@ -268,22 +279,34 @@ std::string to_table(const RunReport& report, const Mark& mark, const Quote& quo
   return table;
 }
 
+std::string write_component_files(const Deployment& deployment,
+                                  const std::filesystem::path& directory) {
+  std::string failed;
+  for (const auto& runner : deployment.runners()) {
+    if (deployment.is_hung(*runner)) continue;
+    deployment.tell_ending("report", *runner);
+    try {
+      const RunningComponent running{runner->name(), "report"};
+      runner->component().write_files(directory);
+    } catch (...) {
+      failed += fmt::format("{}component '{}': {}", failed.empty() ? "" : "; ", runner->name(),
+                            current_exception_text());
+    }
+  }
+  return failed;
+}
+
 void write_report(const RunReport& report, const Deployment& deployment,
                   const std::filesystem::path& directory) {
   prepare_output_folder(directory);
   std::string failed;
-  const auto attempt = [&](const auto& write) {
-    try {
-      write();
-    } catch (...) {
-      failed += (failed.empty() ? "" : "; ") + current_exception_text();
-    }
-  };
-  attempt([&] { write_atomically(directory / "report.json", to_json(report) + '\n'); });
-  for (const auto& runner : deployment.runners()) {
-    if (deployment.is_hung(*runner)) continue;
-    deployment.tell_ending("report", *runner);
-    attempt([&] { runner->component().write_files(directory); });
+  try {
+    write_atomically(directory / "report.json", to_json(report) + '\n');
+  } catch (const std::runtime_error& error) {
+    failed = error.what();
+  }
+  if (const std::string theirs = write_component_files(deployment, directory); !theirs.empty()) {
+    failed += (failed.empty() ? "" : "; ") + theirs;
   }
   if (!failed.empty()) throw std::runtime_error{failed};
 }

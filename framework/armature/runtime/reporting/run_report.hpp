@@ -30,7 +30,10 @@ class RunReport final : public Summary {
 
   /// What ended the run from outside of the deployment's components.
   struct Ending {
-    std::vector<std::string> faults;     // of other processes: ended before, fell silent
+    std::vector<std::string> faults;       // of other processes: ended before, fell silent
+    std::vector<std::string> unwell = {};  // components of other processes, as Deployment::unwell
+    /// What a component of another process gave for the scenario's failure: status and reason.
+    std::optional<std::pair<std::string, std::string>> failed = {};
     std::optional<std::string> stopped;  // "interrupted": by the operator
     std::optional<RunTiming> timing;     // of all processes, where it shall be told
   };
@@ -63,7 +66,9 @@ class RunReport final : public Summary {
   const std::optional<RunTiming>& timing() const { return timing_; }
 
  private:
-  void expect_declared(const std::string& key);
+  /// The metric as the plugin declares it, or nullptr.
+  const MetricSpec* expect_declared(const std::string& key);
+  void add_defect(const std::string& key, const std::string& what);
   void tell_apart();
   void judge_goal(const Goal& goal);
   void judge(const Deployment& deployment, const Ending& ending);
@@ -91,6 +96,9 @@ using Quote = std::function<std::string(std::string_view text)>;
 /// the status, and whether they are good news; `quote` gets what plugins wrote, reasons and names.
 /// Their answers stand in the place of both.
 std::string to_table(const RunReport& report, const Mark& mark, const Quote& quote);
+/// Lets every component of this process write its files. Empty, or who could not write what.
+std::string write_component_files(const Deployment& deployment,
+                                  const std::filesystem::path& directory);
 /// Writes report.json and lets every component write its files beside it. Throws
 /// std::runtime_error that names each file that could not be written, and why; the others are
 /// there.

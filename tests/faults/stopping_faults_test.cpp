@@ -113,7 +113,8 @@ TEST_F(PulledPlug, AnArmComesToRestThoughAPluginHasTakenTheSignals) {
   Command run{command({"components.taker={plugin: test/beat, topics: taker, params: {takes: "
                        "signals}}"}),
               options_};
-  ASSERT_TRUE(run.wait_for_err("has taken SIGINT for itself", kWithin)) << run.err();
+  ASSERT_TRUE(run.wait_for_err("has taken SIGINT for itself; it does not keep it", kWithin))
+      << run.err();
   ASSERT_TRUE(run.wait_for_err("arm       moves", kWithin)) << run.err();
   run.signal(SIGINT);
   const CommandResult result = run.finish(kWithin);

@@ -236,12 +236,29 @@ class Dialogue {
                  "armature: this dialogue stood still for {:.1f} s; it meets the task anew\n",
                  to_seconds(stood_still));
       link_.reset();
-      link_ = join_();
       shown_.clear();
       question_.show("", Steady::now());
+      gone_ = true;  // until it tells what it does
+      rejoin();
     }
     looked_at_ = since_boot();
-    link_->look();
+    if (link_) link_->look();
+  }
+
+  /// The network of a laptop that wakes up takes a while.
+  void rejoin() {
+    constexpr milliseconds kTryAgain{200};
+    std::string told;
+    while (!link_ && !g_left) {
+      try {
+        link_ = join_();
+      } catch (const PluginError& error) {
+        if (std::exchange(told, error.what()) != error.what()) {
+          fmt::print(stderr, "armature: {}; trying again\n", error.what());
+        }
+        std::this_thread::sleep_for(kTryAgain);
+      }
+    }
   }
 
   template <class Done>

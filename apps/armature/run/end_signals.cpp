@@ -123,7 +123,7 @@ void stop_in_order() {
   std::signal(SIGTTOU, SIG_IGN);  // in the background it writes on, and is not halted
 }
 
-std::string taken_back() {
+std::string take_back() {
   std::string first;
   for (const int signal : {SIGINT, SIGTERM, SIGQUIT, SIGHUP}) {
     struct sigaction now {};

@@ -33,7 +33,7 @@ void stop_in_order();
 
 /// Sets the handlers again where something in this process has taken them since: its name
 /// ("SIGINT"), of the first, or "".
-std::string taken_back();
+std::string take_back();
 
 /// "interrupted", "terminated", "the terminal was closed" or "ended by SIGQUIT", once there has
 /// been a signal.

@@ -170,8 +170,9 @@ class OnlyFailure final : public Summary {
   std::optional<std::pair<std::string, std::string>> failed_;
 };
 
-/// Tells the main process how this one's components say that the run went.
-void tell_outcome(const Deployment& deployment, ChildWatch& watch) {
+/// Tells the main process how this one's components say that the run went. Without a main process
+/// that a scenario failed is this one's own fault: why, or "".
+std::string tell_outcome(const Deployment& deployment, ChildWatch& watch) {
   for (const std::string& unwell : deployment.unwell()) watch.tell("unwell", unwell);
   OnlyFailure summary;
   for (const auto& runner : deployment.runners()) {
@@ -179,29 +180,33 @@ void tell_outcome(const Deployment& deployment, ChildWatch& watch) {
     deployment.tell_ending("summary", *runner);
     runner->summarize(summary);
   }
-  if (const auto& failed = summary.failed()) {
-    watch.tell("failed", fmt::format("{} {}", failed->first.empty() ? "failed" : failed->first,
-                                     failed->second));
-  }
+  const auto& failed = summary.failed();
+  if (!failed) return "";
+  const std::string& status = failed->first.empty() ? "failed" : failed->first;
+  watch.tell("failed", status + " " + failed->second);
+  return watch.alone() ? status + ": " + failed->second : "";
 }
 
 /// Writes this process' files into the folder of the main one's report. Why it could not, or "".
 std::string write_report_files(const Deployment& deployment, const std::filesystem::path& folder,
-                               ChildWatch& watch) {
+                               ChildWatch& watch, WatchedEnd& end) {
   ReportList list{folder};
   std::string failed;
-  list.add_what([&] { failed = write_component_files(deployment, folder); });
+  watch.tell("writing", folder.string());
+  end.do_unwatched(
+      [&] { list.add_what([&] { failed = write_component_files(deployment, folder); }); });
   for (const std::string& name : list.names()) watch.tell("wrote", name);
   return failed;
 }
 
 int conclude_child(const RunOptions& options, const Deployment& deployment, ChildWatch& watch,
                    WatchedEnd& end) {
-  tell_outcome(deployment, watch);
+  const std::string failed = tell_outcome(deployment, watch);
   std::string fault = fault_of(deployment, watch);
+  if (fault.empty()) fault = failed;
   if (!options.report_files.empty()) {
-    const std::string failed = write_report_files(deployment, options.report_files, watch);
-    if (fault.empty()) fault = failed;
+    const std::string unwritten = write_report_files(deployment, options.report_files, watch, end);
+    if (fault.empty()) fault = unwritten;
   }
   watch.tell_fault(fault);
   if (options.timing) watch.tell_timing(timing_of(deployment));
@@ -229,14 +234,15 @@ struct Process {
 
 /// What is written at the end stands where the run was started, whatever a plugin has done.
 void go_back_to(const std::filesystem::path& folder, Console& console) {
-  std::error_code none;
-  const auto here = std::filesystem::current_path(none);
-  if (here == folder) return;
+  std::error_code lost;
+  const auto here = std::filesystem::current_path(lost);
+  if (lost || folder.empty() || here == folder) return;
+  std::filesystem::current_path(folder, lost);
+  if (lost) return;  // it was renamed or removed
   console.tell(
       fmt::format("a plugin has changed the folder that the process works in, to '{}'; it "
                   "is changed back",
                   here.string()));
-  std::filesystem::current_path(folder, none);
 }
 
 /// The name of a run: all of its processes have it, and no other run. Where the clock is simulated

@@ -34,13 +34,16 @@ bool has_loopback() {
 
 }  // namespace
 
+void ProcessWatch::keep_signals() {
+  const std::string taken = end_signals::take_back();
+  if (taken.empty() || std::exchange(told_taken_, true)) return;
+  console_->line("runtime", fmt::format("a plugin or its library has taken {} for itself; it does "
+                                        "not keep it: {} stops this run as before",
+                                        taken, taken));
+}
+
 std::optional<std::string> ProcessWatch::interruption_now() {
-  if (const std::string taken = end_signals::taken_back();
-      !taken.empty() && !std::exchange(told_taken_, true)) {
-    console_->line("runtime", fmt::format("a plugin or its library has taken {} for itself; it is "
-                                          "taken back, and stops the run",
-                                          taken));
-  }
+  keep_signals();
   if (!interruption_) interruption_ = end_signals::cause();
   if (!interruption_) interruption_ = console_->lost_reader();
   return interruption_;
@@ -149,6 +152,7 @@ void MainWatch::stopping(const std::string& cause, bool scenario_over) {
 }
 
 bool MainWatch::may_end(const std::vector<std::string>& moving, Duration left) {
+  keep_signals();
   tell_clock_step();
   children_->update();
   pass_on_troubles();
@@ -248,6 +252,7 @@ void ChildWatch::stopping(const std::string& cause, bool scenario_over) {
 }
 
 bool ChildWatch::may_end(const std::vector<std::string>& moving, Duration left) {
+  keep_signals();
   clock_step();
   hear();
   tell_trouble();

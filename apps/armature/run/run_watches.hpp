@@ -31,6 +31,8 @@ class ProcessWatch : public RunWatch {
  protected:
   Console& console() { return *console_; }
   std::optional<std::string> interruption_now();
+  /// Takes back the operator's signals where a plugin has set handlers of its own; told once.
+  void keep_signals();
   /// How far the system clock was stepped since the last call, if it was.
   std::optional<Duration> clock_step() { return steps_.next(); }
 

@@ -105,6 +105,7 @@ bool GoalExecution::guided(Time now) const {
 
 void GoalExecution::fail_execution(const ReasonText& reason, Time now) {
   fail_all("execution", reason);
+  in_hand_ = false;
   stop(now);
 }
 
@@ -303,7 +304,7 @@ void GoalExecution::halt_before_operator(const ReasonText& why, Time now) { begi
 void GoalExecution::begin_halt(const ReasonText& why, Time now) {
   if (halted()) return;
   untold_ = untold_ || (took_any_ && !active_ && !pending_);
-  in_hand_ = guided(now);
+  in_hand_ = in_hand_ || guided(now);
   halted_ = why;
   fail_all(kStopStage, why);
   if (reference_.started()) stop(now);

@@ -185,6 +185,23 @@ TEST_F(GoalExecutionTest, AnArmThatFallsSilentIsNotGuidedAnyMore) {
   EXPECT_EQ(execution_.reference().at(now_).q, home_) << "it holds";
 }
 
+TEST_F(GoalExecutionTest, AnArmThatFallsSilentWhileItLeavesAHandHoldsWhereItIsHeardAgain) {
+  step_to(0.1);
+  give(guided(1));
+  step_to(0.5);
+  put(home_ + JointVector{Eigen::Vector3d{0, 0, 1e-3}});
+  MotionGoal hold = guided(2);
+  hold.mode = MotionMode::hold;
+  give(hold);
+  const JointVector held = before_.q;
+  const MeasuredJoints last{now_, held};
+  for (int k = 0; k < 600; ++k) execution_.update(now_ = now_ + seconds(0.001), last);
+  collect();
+  EXPECT_EQ(statuses_.back().state, State::failed);
+  execution_.update(now_, MeasuredJoints{now_, held + JointVector{Eigen::Vector3d{0, 0.05, 0}}});
+  EXPECT_EQ(execution_.reference().at(now_).q, held);
+}
+
 TEST_F(GoalExecutionTest, AGoalThatFailsLeavesAGuidedArmGuided) {
   step_to(0.1);
   give(guided(1));

@@ -231,10 +231,19 @@ TEST_F(GoalExecutionTest, IsNotAtRestBeforeTheArmsOwnSamplesAre) {
   EXPECT_TRUE(execution_.at_rest(now_));
 }
 
-TEST_F(GoalExecutionTest, AnArmInAHandIsHaltedWhereTheHandComesToRest) {
+class GoalExecutionInAHand : public GoalExecutionTest, public testing::WithParamInterface<bool> {};
+
+TEST_P(GoalExecutionInAHand, IsHaltedWhereTheHandComesToRest) {
   step_to(0.1);
   give(guided(1));
   step_to(0.5);
+  const bool is_held_already = GetParam();
+  if (is_held_already) {
+    put(home_ + JointVector{Eigen::Vector3d{0, 0, -1e-3}});  // the hand moves
+    MotionGoal hold = guided(2);
+    hold.mode = MotionMode::hold;
+    give(hold);
+  }
   execution_.halt("the end", now_);
   JointVector moved = home_;
   const auto step = [&] {
@@ -255,6 +264,7 @@ TEST_F(GoalExecutionTest, AnArmInAHandIsHaltedWhereTheHandComesToRest) {
   for (int k = 0; k < 100; ++k) step();
   EXPECT_EQ(execution_.reference().at(now_).q, rested) << "it is held there from then on";
 }
+INSTANTIATE_TEST_SUITE_P(Halts, GoalExecutionInAHand, testing::Bool());
 
 TEST_F(GoalExecutionTest, AfterAStandstillOfItsOwnTheReferenceBeginsWhereTheArmIs) {
   step_to(0.1);

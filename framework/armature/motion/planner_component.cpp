@@ -56,9 +56,11 @@ const msg::MotionGoal* MotionPlanner::find(std::uint64_t goal_id) const {
 }
 
 bool MotionPlanner::came_twice(const msg::MotionGoal& goal) const {
-  return std::ranges::any_of(known_, [&](msg::MotionGoal other) {
-    other.header_() = goal.header_();
-    return other.goal_id_() == goal.goal_id_() && other != goal;
+  return std::ranges::any_of(known_, [&](const msg::MotionGoal& other) {
+    if (&other == &goal || other.goal_id_() != goal.goal_id_()) return false;
+    msg::MotionGoal told_again = goal;
+    told_again.header_() = other.header_();
+    return told_again != other;
   });
 }
 

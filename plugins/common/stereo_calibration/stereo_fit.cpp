@@ -115,23 +115,28 @@ std::vector<double> apart_px(const Points& board, const OneCamera& left, const O
 }
 
 /// Which views are of another rig, or of no rig at all; or "".
-std::string contradiction(const std::vector<BoardView>& views, const std::vector<double>& apart) {
-  constexpr double kFarApart = 20;  // [px] a camera that was knocked is less, a wrong picture more
+std::string contradiction(const std::vector<BoardView>& views, const std::vector<double>& apart,
+                          int width) {
+  // A camera that was knocked is less off, and a wrong picture more.
+  constexpr double kFarApart = 0.03;  // of the width
   std::vector<std::string> names;
   for (std::size_t v = 0; v < views.size(); ++v) {
-    if (!(apart[v] <= kFarApart)) names.push_back(views[v].name);
+    if (!(apart[v] <= kFarApart * width)) names.push_back(views[v].name);
   }
   if (names.empty()) return "";
   const double farthest = *std::ranges::max_element(apart);
   if (2 * names.size() >= views.size()) {
     return fmt::format(
         "the pairs contradict each other on where the right camera is, by up to {:.0f} px in {} of "
-        "{} pairs: are the two pictures of a pair of one moment, and both folders numbered alike?",
+        "{} pairs: are the two pictures of a pair of one moment, both folders numbered alike, and "
+        "was "
+        "no camera moved?",
         farthest, names.size(), views.size());
   }
   return fmt::format(
       "where the other pairs have the right camera, the boards of {} are up to {:.0f} px from "
-      "where they are seen: are left and right exchanged, or of different moments? leave out {}",
+      "where they are seen: are left and right exchanged, of different moments, or was a "
+      "camera moved? leave {} out",
       fmt::join(names, ", "), farthest, names.size() == 1 ? "it" : "them");
 }
 
@@ -177,7 +182,8 @@ Expected<StereoFit> fit_stereo(const Points& board, const std::vector<BoardView>
   const auto right = fit_one(board, rights, options);
   if (!right) return refuse("right: " + right.error().text);
   const Isometry3d posture = middle_posture(*left, *right);
-  if (std::string why = contradiction(views, apart_px(board, *left, *right, posture));
+  if (std::string why =
+          contradiction(views, apart_px(board, *left, *right, posture), options.width);
       !why.empty()) {
     return refuse(std::move(why));
   }

@@ -140,7 +140,7 @@ TEST(StereoFit, NamesWhatContradictsTheOtherPairs) {
   std::swap(exchanged[7].left, exchanged[7].right);
   EXPECT_THAT(fit_stereo(board(), exchanged, kOptions).error().text,
               testing::ContainsRegex("the boards of 4.png, 7.png are up to .* px from where they "
-                                     "are seen: .* leave out them$"));
+                                     "are seen: .* leave them out$"));
   for (std::size_t v = 0; v + 1 < seen.size(); ++v) seen[v].right = seen[v + 1].right;
   EXPECT_THAT(fit_stereo(board(), seen, kOptions).error().text,
               testing::ContainsRegex("the pairs contradict each other on where the right camera "

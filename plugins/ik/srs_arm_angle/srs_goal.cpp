@@ -142,11 +142,11 @@ void set_free_joints(const SrsArm& arm, const JointVector& seed, SrsGoal& goal) 
   if (goal.wrist_in_line) goal.kept_wrist = kept_from(seed, arm, 4);
 }
 
-}  // namespace
+Spherical line_to_wrist(const SrsArm& arm, const UpperArm& upper) {
+  return spherical(wrist_or_direction(arm, upper), kOnAxis * arm.reach());
+}
 
-double arm_angle_of(const SrsArm& arm, const JointVector& q) {
-  const UpperArm upper = upper_arm(arm, q);
-  const Spherical line = spherical(wrist_or_direction(arm, upper), kOnAxis * arm.reach());
+double arm_angle_of(const SrsArm& arm, const UpperArm& upper, const Spherical& line) {
   const SinCos phi = direction_in_upper(arm, upper.elbow);
   // The first two columns of F^T upper Ry(phi) = Rz(psi).
   const Matrix3d seen = frame_of(line.azimuth, line.polar).transpose();
@@ -155,12 +155,21 @@ double arm_angle_of(const SrsArm& arm, const JointVector& q) {
   return wrap_angle(std::atan2(x.y() - y.x(), x.x() + y.y()));
 }
 
+}  // namespace
+
+double arm_angle_of(const SrsArm& arm, const JointVector& q) {
+  const UpperArm upper = upper_arm(arm, q);
+  return arm_angle_of(arm, upper, line_to_wrist(arm, upper));
+}
+
 double kept_arm_angle(const SrsArm& arm, const JointVector& q, double arm_angle,
                       const SrsGoal& goal) {
-  const Spherical line =
-      spherical(wrist_or_direction(arm, upper_arm(arm, q)), kOnAxis * arm.reach());
+  const UpperArm upper = upper_arm(arm, q);
+  const Spherical line = line_to_wrist(arm, upper);
   const SinCos& nearer = line.polar.sin < goal.polar.sin ? line.polar : goal.polar;
   if (nearer.sin >= kNextToAxis) return arm_angle;
+  constexpr double kSame = 1e-6;  // [rad]
+  if (std::abs(wrap_angle(arm_angle - arm_angle_of(arm, upper, line))) > kSame) return arm_angle;
   const SinCos turned = line.azimuth - goal.azimuth;
   const double by = std::atan2(turned.sin, turned.cos);
   return wrap_angle(nearer.cos < 0 ? arm_angle - by : arm_angle + by);

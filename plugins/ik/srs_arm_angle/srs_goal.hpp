@@ -57,7 +57,7 @@ double arm_angle_of(const SrsArm& arm, const JointVector& q);
 
 /// The arm angle at which the goal keeps to that of the joints `q`, which is `arm_angle`: the same,
 /// but next to axis 1, where it is counted from an azimuth that turns fast or is none. There the
-/// elbow stays on its side.
+/// elbow stays on its side. The same everywhere where `arm_angle` is of other joints.
 double kept_arm_angle(const SrsArm& arm, const JointVector& q, double arm_angle,
                       const SrsGoal& goal);
 

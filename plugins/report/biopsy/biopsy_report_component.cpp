@@ -85,8 +85,8 @@ class BiopsyReport final : public Component {
            kDegreesPerRad);
     metric("other_joints_deg", "most that a turning joint moved inside [deg]",
            monitor_.turned_rad(), kDegreesPerRad);
-    metric("true_vessel_distance_mm", "nearest to a vessel in truth [mm]", monitor_.vessel_distance_m(),
-           1e3);
+    metric("true_vessel_distance_mm", "its axis nearest to a vessel in truth [mm]",
+           monitor_.vessel_distance_m(), 1e3);
   }
 
  private:

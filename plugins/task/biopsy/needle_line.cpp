@@ -36,7 +36,10 @@ void move(std::vector<ForbiddenZone>& zones, const Eigen::Affine3d& robot_T_imag
     zone.from = robot_T_image * zone.from;
     zone.to = robot_T_image * zone.to;
     zone.radius_m += error_m;
-    zone.name += fmt::format(" and {:.2f} mm by which it may be elsewhere", 1e3 * error_m);
+    if (error_m > 0) {
+      zone.name +=
+          fmt::format(" (made {:.2f} mm larger by the error of the registration)", 1e3 * error_m);
+    }
   }
 }
 

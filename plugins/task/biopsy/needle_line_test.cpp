@@ -85,7 +85,7 @@ TEST(NeedleLines, BeforeTheRobotKeepVesselsAndHeadWithThemLargerByTheError) {
   EXPECT_FALSE(zones[0].tool_enters) << "a vessel";
   EXPECT_TRUE(zones[1].tool_enters) << "the head";
   EXPECT_NEAR(zones[0].radius_m, 0.0027, 1e-15);
-  EXPECT_EQ(zones[0].name, "artery and 0.70 mm by which it may be elsewhere");
+  EXPECT_EQ(zones[0].name, "artery (made 0.70 mm larger by the error of the registration)");
   EXPECT_NEAR(zones[1].radius_m, 0.0807, 1e-15);
 }
 

@@ -10,7 +10,8 @@
 
 namespace armature {
 
-void OutputPort::throw_not_open() const {
+void OutputPort::refuse_or_drop() const {
+  if (std::this_thread::get_id() != constructs_) return;
   throw SetupError(
       fmt::format("it publishes '{}' in its constructor, where nobody hears it; publish in the "
                   "first step",

@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <thread>
 #include <utility>
 
 #include "armature/bus/topic.hpp"
@@ -43,7 +44,7 @@ class OutputPort {
   void publish(SampleRef sample) {
     const State state = state_.load(std::memory_order_acquire);
     if (state == State::closed) return;
-    if (state == State::not_open) throw_not_open();
+    if (state == State::not_open) return refuse_or_drop();
     SampleInfo& info = sample.mutable_info();
     info.writer = writer_;
     info.sequence = topic_->next_sequence();
@@ -59,13 +60,16 @@ class OutputPort {
  private:
   enum class State : std::uint8_t { not_open, open, closed };
   bool closed() const { return state_.load(std::memory_order_acquire) == State::closed; }
-  [[noreturn]] void throw_not_open() const;
+  /// Throws SetupError on the thread that constructs the component; a thread of its own, which
+  /// nobody could catch it on, loses the sample.
+  void refuse_or_drop() const;
 
   PortSpec spec_;
   Topic* topic_;
   Delivery* delivery_;
   const Inbox* inbox_;
   std::uint32_t writer_;
+  std::thread::id constructs_ = std::this_thread::get_id();
   std::atomic<State> state_{State::not_open};
 };
 

@@ -16,6 +16,7 @@
 #include "armature/runtime/deployment_file/injected_fault.hpp"
 #include "armature/runtime/deployment_file/on_fault.hpp"
 #include "armature/runtime/execution/clock_publisher.hpp"
+#include "armature/runtime/execution/float_environment.hpp"
 #include "armature/runtime/execution/lockstep_scheduler.hpp"
 #include "armature/runtime/execution/state_publisher.hpp"
 #include "armature/runtime/execution/threaded_scheduler.hpp"
@@ -139,6 +140,7 @@ void Deployment::make_runner(const ComponentConfig& component, PluginRegistry& p
                              config::Problems& problems) {
   const RunningComponent running{component.name, "constructor"};
   const SlowConstructor slow{component.name, print_note_};
+  const FloatEnvironment floats;
   // Outlives the exceptions that its code throws, and the slots that it makes.
   const auto library = plugins.load(*component.manifest, Component::kKind);
   auto runner = std::make_unique<ComponentRunner>(component.name, component.plugin_id,

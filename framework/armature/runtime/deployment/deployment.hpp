@@ -102,7 +102,7 @@ class Deployment {
   /// When there was trouble in this process since the last call, of several the last time; only of
   /// a run with a black box.
   std::optional<Time> next_trouble();
-  /// Whether a component had finished when the run began to stop.
+  /// Whether a component, of any process, had finished when the run began to stop.
   bool scenario_over() const { return scenario_over_; }
   /// True when the run ended because its time limit was over.
   bool timed_out() const { return timed_out_; }

@@ -28,9 +28,9 @@ void Deployment::run(RunWatch& watch) {
     const std::string cause = run_until_stop(watch);
     unwell_ = find_unwell();
     stopping_ = true;
-    const bool scenario_over = scenario_over_ || watch.scenario_over();
-    if (!scenario_over) mark_trouble(StatusReporter::State::degraded);
-    watch.stopping(cause, scenario_over);
+    scenario_over_ = scenario_over_ || watch.scenario_over();
+    if (!scenario_over_) mark_trouble(StatusReporter::State::degraded);
+    watch.stopping(cause, scenario_over_);
     come_to_rest(watch);
   }
   watch.ending();
@@ -86,11 +86,14 @@ std::optional<std::string> Deployment::stop_cause(RunWatch& watch, Time start) {
   }
   if (std::string hang = hang_fault(); !hang.empty()) return hang;
   if (scenario_over_ && !options_.keeps_running) return "the scenario is over";
-  // Also of a run whose time limit another process has told first.
+  // Before another process' stop is heard, so that the limit counts whoever sees it first.
   timed_out_ = config_.time_limit_s > 0 && !options_.keeps_running &&
                clock_->now() - start > seconds(config_.time_limit_s) + watch.grace();
   if (is_time_to_ask()) {
-    if (auto cause = watch.stop_cause()) return cause;
+    if (auto cause = watch.stop_cause()) {
+      timed_out_ = timed_out_ && !watch.scenario_over();
+      return cause;
+    }
   }
   if (timed_out_) return fmt::format("the time limit of {:g} s is over", config_.time_limit_s);
   return std::nullopt;

@@ -174,6 +174,7 @@ void ComponentRunner::stop(Time now) {
   if (!component_ || faulted()) return;
   const Tapped tapped{*this, ComponentCall::stop, now};
   const RunningComponent running{name_, "stop"};
+  const FloatEnvironment floats;
   try {
     component_->stop(now);
   } catch (...) {
@@ -183,6 +184,7 @@ void ComponentRunner::stop(Time now) {
 
 void ComponentRunner::summarize(Summary& summary) {
   const RunningComponent running{name_, "summarize"};
+  const FloatEnvironment floats;
   try {
     component_->summarize(summary);
   } catch (...) {

@@ -10,12 +10,16 @@
 
 namespace armature ARMATURE_EXPORT {
 
-/// How the calling thread rounds, what of its floating-point numbers traps, and whether the
-/// smallest of them count as 0. A component that changes it changes what the next ones on its
-/// thread compute. Real-time safe.
+/// Keeps, while it exists, how the calling thread rounds, what of its floating-point numbers traps,
+/// and whether the smallest of them count as 0; without SSE2 only how it rounds. A component that
+/// changes it changes what the next ones on its thread compute, and a library that is linked with
+/// -ffast-math what all threads do that begin later. Real-time safe.
 class FloatEnvironment {
  public:
   FloatEnvironment() : kept_{now()} {}
+  ~FloatEnvironment() { restore(); }
+  FloatEnvironment(const FloatEnvironment&) = delete;
+  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
   /// True when it was another one, as it is no more.
   bool restore() const {
     if (now() == kept_) return false;

@@ -108,6 +108,7 @@ void ChildProcesses::hear(Child& child) {
     if (word == "trouble") troubles_.push_back(Time{std::atoll(text.c_str())});
     if (word == "timing") child.timing.push_back(text);
     if (word == "unwell") unwell_.push_back(text);
+    if (word == "writing") child.writes_since = SteadyClock::now();
     if (word == "wrote") written_.push_back(text);
     if (word == "failed" && !failed_) {
       const std::size_t end = text.find(' ');
@@ -249,6 +250,7 @@ void ChildProcesses::give_up(Child& child, std::chrono::seconds timeout) {
 
 void ChildProcesses::end(const std::function<bool(const std::string& name)>& which) {
   constexpr std::chrono::seconds kTimeout{kSanitized ? 15 : 3};
+  constexpr std::chrono::seconds kFilesTimeout{kSanitized ? 50 : 10};
   const auto is_meant = [&](const Child& child) {
     const bool has_come = !child.host || !child.host->other().empty();
     return has_come && !child.ended && which(child.name) && may_end(child);
@@ -262,7 +264,9 @@ void ChildProcesses::end(const std::function<bool(const std::string& name)>& whi
     }
     update();
     for (Child& child : children_) {
-      if (is_meant(child) && SteadyClock::now() > deadline) give_up(child, kTimeout);
+      const auto now = SteadyClock::now();
+      const bool writes = child.writes_since && now - *child.writes_since < kFilesTimeout;
+      if (is_meant(child) && now > deadline && !writes) give_up(child, kTimeout);
     }
     std::this_thread::sleep_for(std::chrono::milliseconds{5});
   }

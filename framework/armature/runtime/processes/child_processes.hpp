@@ -33,6 +33,7 @@ namespace armature ARMATURE_EXPORT {
 ///   fault TEXT        what failed in it
 ///   unwell TEXT       a component of it that was degraded or stalled when it began to stop
 ///   failed WORD TEXT  the scenario's failure, as a component of it says, and why
+///   writing FOLDER    it writes the report's files there, which takes as long as they are
 ///   wrote NAME        a file that it wrote into the folder of the report
 ///   timing TEXT       how late and how long an executor or a component of it was (run_timing.hpp)
 /// and the main one: start, over, trouble NS, stop TEXT, end. A process whose main one is gone
@@ -97,7 +98,8 @@ class ChildProcesses {
   void add_timing(RunTiming& timing) const;
 
   /// Ends those processes that `which` names and waits for them, and the agents of hosts that have
-  /// none left; one that takes longer than 3 s is killed, which is a fault. A host whose agent has
+  /// none left; one that takes longer than 3 s, or 10 s for its files, is killed, which is a fault.
+  /// A host whose agent has
   /// not come has nothing to end.
   void end(const std::function<bool(const std::string& name)>& which);
 
@@ -114,7 +116,7 @@ class ChildProcesses {
     bool joined = false, ready = false, told_end = false, told_fault = false, ended = false;
     std::string waiting = {}, stop_cause = {};
     std::string moving = {};  // of one that has been told to stop
-    std::optional<SteadyClock::time_point> halted_at = {};
+    std::optional<SteadyClock::time_point> halted_at = {}, writes_since = {};
     std::vector<std::string> timing = {};
     bool is_agent() const { return name.empty(); }
   };

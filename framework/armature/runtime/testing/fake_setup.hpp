@@ -49,8 +49,10 @@ class FakeSetup final : public Setup, public Delivery {
     return input;
   }
   OutputPort& claim_output(std::string_view port, const MessageType& type) override {
-    return runner_.outputs().emplace_back(PortSpec{.name = std::string{port}},
-                                          make_topic(port, type), *this, runner_.inbox());
+    OutputPort& output = runner_.outputs().emplace_back(
+        PortSpec{.name = std::string{port}}, make_topic(port, type), *this, runner_.inbox());
+    output.open();  // it is stepped without a runner, too
+    return output;
   }
   SlotPlugin slot_plugin(std::string_view, std::string_view) override {
     throw std::logic_error("no slots");

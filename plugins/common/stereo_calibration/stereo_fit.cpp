@@ -129,8 +129,7 @@ std::string contradiction(const std::vector<BoardView>& views, const std::vector
     return fmt::format(
         "the pairs contradict each other on where the right camera is, by up to {:.0f} px in {} of "
         "{} pairs: are the two pictures of a pair of one moment, both folders numbered alike, and "
-        "was "
-        "no camera moved?",
+        "was no camera moved?",
         farthest, names.size(), views.size());
   }
   return fmt::format(

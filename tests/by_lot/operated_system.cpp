@@ -126,7 +126,9 @@ std::vector<OperatedSystem> operated_systems() {
       OperatedSystem{.name = "Lamp",
                      .file = "configs/dental_lamp.yaml",
                      .robot = "dental_lamp.yaml",
-                     .settings = {"components.operator.params.words=10"},
+                     // Its pictures take long to be drawn: a lamp that is left unreachable comes to
+                     // this limit while the test still waits.
+                     .settings = {"components.operator.params.words=10", "run.time_limit_s=90"},
                      .rests_while = {"checking light"},
                      .seeds = 1}};
   for (std::size_t i = 0, alone = all.size(); i < alone; ++i) {

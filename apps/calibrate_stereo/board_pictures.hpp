@@ -17,8 +17,8 @@ struct BoardPictures {
 };
 
 /// Looks for a board in all pairs, and tells each that shows none, or a picture that another pair
-/// has, on standard error. Throws
-/// SetupError for folders that are none, and std::runtime_error for pictures of different sizes.
+/// has, on standard error. Throws SetupError for folders that are none, and std::runtime_error for
+/// pictures of different sizes.
 BoardPictures read_board_pictures(const std::filesystem::path& left,
                                   const std::filesystem::path& right,
                                   const chessboard::BoardShape& shape);

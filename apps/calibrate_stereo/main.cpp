@@ -93,7 +93,8 @@ void warn_of_coverage(const Json& told) {
   }
 }
 
-/// Of sensors' pixels that are as wide as high, as nearly all are, boards' squares that are not.
+/// Warns where both cameras see the board stretched alike: nearly all sensors have pixels that are
+/// as wide as high, and not all prints have such squares.
 void warn_of_squares(const stereo::StereoCalibration& calibration) {
   constexpr double kPrinted = 0.003, kAlike = 0.5;
   const auto wider = [](const stereo::Lens& lens) { return lens.fx / lens.fy - 1; };

@@ -235,28 +235,25 @@ class Dialogue {
       fmt::print(stderr,
                  "armature: this dialogue stood still for {:.1f} s; it meets the task anew\n",
                  to_seconds(stood_still));
-      link_.reset();
       shown_.clear();
       question_.show("", Steady::now());
       gone_ = true;  // until it tells what it does
       rejoin();
     }
     looked_at_ = since_boot();
-    if (link_) link_->look();
+    link_->look();
   }
 
-  /// The network of a laptop that wakes up takes a while.
+  /// Tries until it can, or he leaves: the network of a laptop that wakes up takes a while.
   void rejoin() {
     constexpr milliseconds kTryAgain{200};
-    std::string told;
-    while (!link_ && !g_left) {
+    for (std::string told; !g_left; std::this_thread::sleep_for(kTryAgain)) {
       try {
         link_ = join_();
+        return;
       } catch (const PluginError& error) {
-        if (std::exchange(told, error.what()) != error.what()) {
-          fmt::print(stderr, "armature: {}; trying again\n", error.what());
-        }
-        std::this_thread::sleep_for(kTryAgain);
+        if (told != error.what()) fmt::print(stderr, "armature: {}; trying again\n", error.what());
+        told = error.what();
       }
     }
   }

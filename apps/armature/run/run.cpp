@@ -182,9 +182,8 @@ std::string tell_outcome(const Deployment& deployment, ChildWatch& watch) {
   }
   const auto& failed = summary.failed();
   if (!failed) return "";
-  const std::string& status = failed->first.empty() ? "failed" : failed->first;
-  watch.tell("failed", status + " " + failed->second);
-  return watch.alone() ? status + ": " + failed->second : "";
+  watch.tell("failed", failed->first + " " + failed->second);
+  return watch.alone() ? "the scenario failed: " + failed->second : "";
 }
 
 /// Writes this process' files into the folder of the main one's report. Why it could not, or "".
@@ -232,7 +231,8 @@ struct Process {
   std::filesystem::path folder;  // that it was started in
 };
 
-/// What is written at the end stands where the run was started, whatever a plugin has done.
+/// Undoes what a plugin has done to the process' folder: the files of the end, which are named from
+/// there, stand where the run was started.
 void go_back_to(const std::filesystem::path& folder, Console& console) {
   std::error_code lost;
   const auto here = std::filesystem::current_path(lost);

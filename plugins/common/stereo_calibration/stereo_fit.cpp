@@ -95,7 +95,7 @@ Isometry3d middle_posture(const OneCamera& left, const OneCamera& right) {
   return middle;
 }
 
-/// How far a board's corners are, in the right picture, from where the left picture and
+/// The distance of a board's corners in the right picture from where the left picture and
 /// `right_T_left` have them: rms of each view [px].
 std::vector<double> apart_px(const Points& board, const OneCamera& left, const OneCamera& right,
                              const Isometry3d& right_T_left) {

@@ -24,8 +24,8 @@ class RunWatch {
   /// Why the run is to stop, once something outside of its components says so. Asked before the
   /// start, too, and may throw there as may_start does.
   virtual std::optional<std::string> stop_cause() { return std::nullopt; }
-  /// How much later than its time limit this process ends the run by itself: one that another
-  /// process leads leaves that to it.
+  /// The time behind the time limit after which this process ends the run by itself. A process that
+  /// the main one has started waits for that one to do it.
   virtual Duration grace() const { return {}; }
   /// Whether the scenario is over in another process, so that this stop is no trouble.
   virtual bool scenario_over() const { return false; }

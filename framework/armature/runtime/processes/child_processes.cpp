@@ -22,6 +22,13 @@ namespace {
 /// What is moving in a process that has not said so yet.
 const std::string kNotSaid = "?";
 
+/// The first word of a line, and what follows it.
+std::pair<std::string, std::string> split(const std::string& line) {
+  const std::size_t space = line.find(' ');
+  if (space == std::string::npos) return {line, ""};
+  return {line.substr(0, space), line.substr(space + 1)};
+}
+
 template <class T>
 std::optional<T> next_of(std::deque<T>& waiting) {
   if (waiting.empty()) return std::nullopt;
@@ -93,9 +100,7 @@ void ChildProcesses::update() {
 
 void ChildProcesses::hear(Child& child) {
   while (const auto line = child.control->receive()) {
-    const std::size_t space = line->find(' ');
-    const std::string word = line->substr(0, space);
-    const std::string text = space == std::string::npos ? "" : line->substr(space + 1);
+    const auto [word, text] = split(*line);
     if (word == "joined") child.joined = true;
     if (word == "waiting") child.waiting = text;
     if (word == "ready") child.ready = true;
@@ -110,10 +115,7 @@ void ChildProcesses::hear(Child& child) {
     if (word == "unwell") unwell_.push_back(text);
     if (word == "writing") child.writes_since = SteadyClock::now();
     if (word == "wrote") written_.push_back(text);
-    if (word == "failed" && !failed_) {
-      const std::size_t end = text.find(' ');
-      failed_ = {text.substr(0, end), text.substr(std::min(end, text.size() - 1) + 1)};
-    }
+    if (word == "failed" && !failed_) failed_ = split(text);
     if (word == "fault") {
       child.told_fault = true;
       faults_.push_back(fmt::format("{}: {}", child.label, text));

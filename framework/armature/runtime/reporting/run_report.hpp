@@ -32,7 +32,7 @@ class RunReport final : public Summary {
   struct Ending {
     std::vector<std::string> faults;       // of other processes: ended before, fell silent
     std::vector<std::string> unwell = {};  // components of other processes, as Deployment::unwell
-    /// What a component of another process gave for the scenario's failure: status and reason.
+    /// Status and reason that a component of another process gave for the scenario's failure.
     std::optional<std::pair<std::string, std::string>> failed = {};
     std::optional<std::string> stopped;  // "interrupted": by the operator
     std::optional<RunTiming> timing;     // of all processes, where it shall be told

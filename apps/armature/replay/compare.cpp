@@ -16,6 +16,7 @@
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/values/json_text.hpp"
 #include "exit_code.hpp"
+#include "replay/changed_components.hpp"
 #include "replay/field_differences.hpp"
 #include "replay/recorded_text.hpp"
 #include "replay/replay.hpp"
@@ -29,17 +30,6 @@ namespace armature {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-/// The entry of a component in its file, with what it is bound to, as text.
-std::string text_of(const ComponentConfig& component, const DeploymentConfig& deployment) {
-  const config::Node* components = deployment.file.find("components");
-  const config::Node* entry = components ? components->find(component.component()) : nullptr;
-  std::string text = entry ? config::to_yaml(*entry, false) : "";
-  for (const auto& [section, name] : component.documents) {
-    text += config::to_yaml(deployment.documents.at(section).at(name), false);
-  }
-  return text;
-}
 
 /// A value of a parameter as one line of YAML.
 std::string flow_text(const config::Node& value) {
@@ -56,19 +46,12 @@ std::string flow_text(const config::Node& value) {
 }
 
 /// The components of `run` that are other ones with the assignments.
-std::vector<std::string> changed_components(const RecordedRun& run, PluginRegistry& plugins,
-                                            const std::vector<std::string>& assignments) {
-  std::vector<std::string> notes;
-  const DeploymentConfig before = run.read_config(plugins, {}, notes);
-  const DeploymentConfig now = run.read_config(plugins, assignments, notes);
-  std::vector<std::string> changed;
-  const bool all = before.seed != now.seed;  // each draws its own numbers from it
-  for (const ComponentConfig& component : before.components) {
-    const auto same = std::ranges::find(now.components, component.name, &ComponentConfig::name);
-    const bool is_recorded = run.components().contains(component.name);
-    if (!is_recorded || same == now.components.end()) continue;
-    if (all || text_of(component, before) != text_of(*same, now)) changed.push_back(component.name);
-  }
+std::vector<std::string> changed_of(const RecordedRun& run, PluginRegistry& plugins,
+                                    const std::vector<std::string>& assignments) {
+  std::vector<std::string> notes;  // are told by the sides
+  std::vector<std::string> changed = changed_components(
+      run.read_config(plugins, {}, notes), run.read_config(plugins, assignments, notes));
+  std::erase_if(changed, [&](const std::string& name) { return !run.components().contains(name); });
   return changed;
 }
 
@@ -146,7 +129,7 @@ class Comparison {
   Comparison(const std::filesystem::path& file, const std::string& process,
              const ReplayOptions& options, PluginRegistry& plugins)
       : run_{file, process},
-        changed_{changed_components(run_, plugins, options.assignments)},
+        changed_{changed_of(run_, plugins, options.assignments)},
         before_{run_, plugins, {}, or_none(changed_)},
         now_{run_, plugins, options.assignments, or_none(changed_)} {}
 

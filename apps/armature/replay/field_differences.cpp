@@ -1,16 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "replay/field_differences.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "armature/messages/cdr_to_json.hpp"
 #include "armature/messages/known_types.hpp"
 #include "armature/values/json_text.hpp"
 
 namespace armature {
+namespace {
+
+/// Of JSON, NaN is not equal to itself.
+bool is_none_in_both(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now) {
+  return before.is_number_float() && now.is_number_float() && std::isnan(before.get<double>()) &&
+         std::isnan(now.get<double>());
+}
+
+}  // namespace
 
 void TopicDifferences::compare(const MessageType& type, std::span<const std::byte> before,
                                std::span<const std::byte> now, double at_s) {
@@ -43,28 +54,40 @@ void TopicDifferences::walk(const Json& before, const Json& now, const std::stri
       add("elements of " + name, Json(std::to_string(before.size())),
           Json(std::to_string(now.size())), at_s);
     }
-  } else if (!(before == now)) {  // NaN is neither equal nor unequal to anything here
+  } else if (!(before == now) && !is_none_in_both(before, now)) {
     add(name, before, now, at_s);
   }
 }
 
 void TopicDifferences::add(const std::string& name, const Json& before, const Json& now,
                            double at_s) {
+  if (!before.is_number_float() || !now.is_number_float()) {
+    return add_text(name, json_text(before), json_text(now), at_s);
+  }
+  const double first = before.get<double>(), second = now.get<double>();
+  if (!std::isfinite(first) || !std::isfinite(second)) {
+    return add_text("no number in " + name, fmt::format("{}", first), fmt::format("{}", second),
+                    at_s);
+  }
   in_message_[name] = true;
   const auto [place, is_new] = fields_.try_emplace(name);
   FieldDifferences& field = place->second;
-  if (before.is_number_float() && now.is_number_float()) {
-    field.is_number = true;
-    double apart = std::abs(now.get<double>() - before.get<double>());
-    if (std::isnan(apart)) apart = std::numeric_limits<double>::infinity();
-    if (!is_new && apart <= field.largest) return;
-    field.largest = apart;
-    field.at_s = at_s;
-  } else if (is_new) {
-    field.at_s = at_s;
-    field.before = json_text(before);
-    field.now = json_text(now);
-  }
+  const double apart = std::abs(second - first);
+  if (!is_new && apart <= field.largest) return;
+  field.is_number = true;
+  field.largest = apart;
+  field.at_s = at_s;
+}
+
+void TopicDifferences::add_text(const std::string& name, std::string before, std::string now,
+                                double at_s) {
+  in_message_[name] = true;
+  const auto [place, is_new] = fields_.try_emplace(name);
+  if (!is_new) return;
+  FieldDifferences& field = place->second;
+  field.at_s = at_s;
+  field.before = std::move(before);
+  field.now = std::move(now);
 }
 
 void TopicDifferences::follow_joints(const Json& message, std::size_t run) {

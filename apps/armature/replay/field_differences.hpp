@@ -18,7 +18,7 @@ namespace armature {
 struct FieldDifferences {
   std::uint64_t messages = 0;  // that differ in it
   bool is_number = false;
-  double largest = 0;       // of numbers; infinite: one of them is no number
+  double largest = 0;       // of numbers
   double at_s = 0;          // where the largest is; of others the first
   std::string before, now;  // of others: the first values
 };
@@ -39,7 +39,8 @@ class TopicDifferences {
   std::uint64_t differing() const { return differing_; }
   std::uint64_t only_before() const { return only_before_; }
   std::uint64_t only_now() const { return only_now_; }
-  /// By name: "position[]", "points[].positions[]".
+  /// By name: "position[]", "points[].positions[]"; "no number in position[]" where one of two is
+  /// NaN or infinite, "elements of position" where one has more.
   const std::map<std::string, FieldDifferences>& fields() const { return fields_; }
   /// The largest change of a joint from one message, or one point of a trajectory, to the next
   /// [rad or m], before and now.
@@ -50,6 +51,7 @@ class TopicDifferences {
 
   void walk(const Json& before, const Json& now, const std::string& name, double at_s);
   void add(const std::string& name, const Json& before, const Json& now, double at_s);
+  void add_text(const std::string& name, std::string before, std::string now, double at_s);
   void follow_joints(const Json& message, std::size_t run);
   void add_joints(const Json& joints, std::size_t run);
 

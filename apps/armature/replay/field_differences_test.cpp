@@ -14,14 +14,19 @@
 namespace armature {
 namespace {
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
 class TopicDifferencesTest : public ::testing::Test {
  protected:
   template <class Message>
   void compare(const Message& before, const Message& now, double at_s) {
-    std::vector<std::byte> first, second;
-    message_type<Message>().encode(&before, first);
-    message_type<Message>().encode(&now, second);
-    differences_.compare(message_type<Message>(), first, second, at_s);
+    differences_.compare(message_type<Message>(), encoded(before), encoded(now), at_s);
+  }
+  template <class Message>
+  static std::vector<std::byte> encoded(const Message& message) {
+    std::vector<std::byte> cdr;
+    message_type<Message>().encode(&message, cdr);
+    return cdr;
   }
   static msg::JointState joints(std::vector<double> position, const std::string& frame = "") {
     msg::JointState message;
@@ -46,10 +51,21 @@ TEST_F(TopicDifferencesTest, TellsTheLargestOfAFieldAndWhen) {
   EXPECT_EQ(field.at_s, 1);
 }
 
-TEST_F(TopicDifferencesTest, ANumberThatIsNoneAnyMoreDiffersWithoutBound) {
-  compare(joints({1}), joints({std::numeric_limits<double>::quiet_NaN()}), 0);
-  EXPECT_EQ(differences_.fields().at("position[]").largest,
-            std::numeric_limits<double>::infinity());
+TEST_F(TopicDifferencesTest, WhatIsNoNumberOnBothSidesIsEqualAndHidesNothing) {
+  compare(joints({kNone, 1}), joints({kNone, 1.25}), 0);
+  ASSERT_EQ(differences_.fields().size(), 1U);
+  EXPECT_EQ(differences_.fields().at("position[]").largest, 0.25);
+}
+
+TEST_F(TopicDifferencesTest, ANumberThatIsNoneAnyMoreIsToldAsSuchAndHidesNothing) {
+  compare(joints({1, 2, 3}), joints({kNone, 2.5, std::numeric_limits<double>::infinity()}), 7);
+  EXPECT_EQ(differences_.fields().at("position[]").largest, 0.5);
+  const FieldDifferences& none = differences_.fields().at("no number in position[]");
+  EXPECT_FALSE(none.is_number);
+  EXPECT_EQ(none.messages, 1U);
+  EXPECT_EQ(none.before, "1");
+  EXPECT_EQ(none.now, "nan");
+  EXPECT_EQ(none.at_s, 7);
 }
 
 TEST_F(TopicDifferencesTest, TellsTheFirstTextsAndCountsOfElements) {

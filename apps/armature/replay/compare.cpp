@@ -238,6 +238,14 @@ bool is_same(const TopicDifferences& differences) {
   return differences.differing() + differences.only_before() + differences.only_now() == 0;
 }
 
+/// "by up to 0.25", or "first 0 now 7 in data[399]".
+std::string text_of(const FieldDifferences& field) {
+  if (field.is_number) return fmt::format("by up to {:.3g}", field.largest);
+  const bool is_element = field.element.find('[') != std::string::npos;
+  return fmt::format("first {} now {}{}", field.before, field.now,
+                     is_element ? " in " + field.element : "");
+}
+
 void print_fields(const std::string& topic, const TopicDifferences& differences) {
   print_recorded("  {}: {} of {} messages differ\n", topic, differences.differing(),
                  differences.messages());
@@ -246,11 +254,8 @@ void print_fields(const std::string& topic, const TopicDifferences& differences)
                    differences.only_before(), differences.only_now());
   }
   for (const auto& [name, field] : differences.fields()) {
-    const std::string what = field.is_number
-                                 ? fmt::format("by up to {:.3g}", field.largest)
-                                 : fmt::format("first {} now {}", field.before, field.now);
-    print_recorded("    {:<28} {:>6} of them, {} at {:.3f} s\n", name, field.messages, what,
-                   field.at_s);
+    print_recorded("    {:<28} {:>6} of them, {} at {:.3f} s\n", name, field.messages,
+                   text_of(field), field.at_s);
   }
   const auto& steps = differences.joint_steps();
   if (steps[0] + steps[1] > 0) {
@@ -326,6 +331,7 @@ Json json_of(const TopicDifferences& differences) {
     } else {
       told["recorded"] = field.before;
       told["now"] = field.now;
+      told["element"] = field.element;
     }
   }
   return json;

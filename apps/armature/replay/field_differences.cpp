@@ -25,53 +25,63 @@ bool is_none_in_both(const nlohmann::ordered_json& before, const nlohmann::order
 
 void TopicDifferences::compare(const MessageType& type, std::span<const std::byte> before,
                                std::span<const std::byte> now, double at_s) {
+  const bool differs = !std::ranges::equal(before, now);
   ++messages_;
+  differing_ += differs ? 1 : 0;
   const TypeDescription* description = describe_type(type.dds_name);
   if (!description) return;
-  const auto first = cdr_to_json(*description, before);
-  const auto second = cdr_to_json(*description, now);
+  const OctetArrays octets = differs ? OctetArrays::whole : OctetArrays::shortened;
+  const auto first = cdr_to_json(*description, before, octets);
+  const auto second = cdr_to_json(*description, now, octets);
   if (!first || !second) return;
   follow_joints(*first, 0);
   follow_joints(*second, 1);
-  if (std::ranges::equal(before, now)) return;
-  ++differing_;
+  if (!differs) return;
   in_message_.clear();
-  walk(*first, *second, "", at_s);
-  for (const auto& [name, differs] : in_message_) ++fields_[name].messages;
+  walk(*first, *second, {}, at_s);
+  for (const auto& [name, is_in] : in_message_) ++fields_[name].messages;
 }
 
-void TopicDifferences::walk(const Json& before, const Json& now, const std::string& name,
-                            double at_s) {
+void TopicDifferences::walk(const Json& before, const Json& now, const Place& place, double at_s) {
   if (before.is_object() && now.is_object()) {
+    const std::string dot = place.name.empty() ? "" : ".";
     for (const auto& [key, value] : before.items()) {
-      walk(value, now.value(key, Json{}), name.empty() ? key : name + "." + key, at_s);
+      walk(value, now.value(key, Json{}), {place.name + dot + key, place.element + dot + key},
+           at_s);
     }
   } else if (before.is_array() && now.is_array()) {
-    for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
-      walk(before[i], now[i], name + "[]", at_s);
-    }
-    if (before.size() != now.size()) {
-      add("elements of " + name, Json(std::to_string(before.size())),
-          Json(std::to_string(now.size())), at_s);
-    }
+    walk_array(before, now, place, at_s);
   } else if (!(before == now) && !is_none_in_both(before, now)) {
-    add(name, before, now, at_s);
+    add(place, before, now, at_s);
   }
 }
 
-void TopicDifferences::add(const std::string& name, const Json& before, const Json& now,
-                           double at_s) {
+void TopicDifferences::walk_array(const Json& before, const Json& now, const Place& place,
+                                  double at_s) {
+  for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
+    if (before[i] == now[i]) continue;
+    walk(before[i], now[i], {place.name + "[]", fmt::format("{}[{}]", place.element, i)}, at_s);
+    // Of integers the first that differs is told: a picture has a million octets.
+    if (before[i].is_number_integer()) break;
+  }
+  if (before.size() != now.size()) {
+    add({"elements of " + place.name, place.element}, Json(std::to_string(before.size())),
+        Json(std::to_string(now.size())), at_s);
+  }
+}
+
+void TopicDifferences::add(const Place& place, const Json& before, const Json& now, double at_s) {
   if (!before.is_number_float() || !now.is_number_float()) {
-    return add_text(name, json_text(before), json_text(now), at_s);
+    return add_text(place, json_text(before), json_text(now), at_s);
   }
   const double first = before.get<double>(), second = now.get<double>();
   if (!std::isfinite(first) || !std::isfinite(second)) {
-    return add_text("no number in " + name, fmt::format("{}", first), fmt::format("{}", second),
-                    at_s);
+    return add_text({"no number in " + place.name, place.element}, fmt::format("{}", first),
+                    fmt::format("{}", second), at_s);
   }
-  in_message_[name] = true;
-  const auto [place, is_new] = fields_.try_emplace(name);
-  FieldDifferences& field = place->second;
+  in_message_[place.name] = true;
+  const auto [known, is_new] = fields_.try_emplace(place.name);
+  FieldDifferences& field = known->second;
   const double apart = std::abs(second - first);
   if (!is_new && apart <= field.largest) return;
   field.is_number = true;
@@ -79,12 +89,13 @@ void TopicDifferences::add(const std::string& name, const Json& before, const Js
   field.at_s = at_s;
 }
 
-void TopicDifferences::add_text(const std::string& name, std::string before, std::string now,
+void TopicDifferences::add_text(const Place& place, std::string before, std::string now,
                                 double at_s) {
-  in_message_[name] = true;
-  const auto [place, is_new] = fields_.try_emplace(name);
+  in_message_[place.name] = true;
+  const auto [known, is_new] = fields_.try_emplace(place.name);
   if (!is_new) return;
-  FieldDifferences& field = place->second;
+  FieldDifferences& field = known->second;
+  field.element = place.element;
   field.at_s = at_s;
   field.before = std::move(before);
   field.now = std::move(now);

@@ -21,6 +21,7 @@ struct FieldDifferences {
   double largest = 0;       // of numbers
   double at_s = 0;          // where the largest is; of others the first
   std::string before, now;  // of others: the first values
+  std::string element;      // of others: where these stand, "data[399]"
 };
 
 /// How the messages of one topic differ between two runs, and how far joints jump in each.
@@ -49,9 +50,15 @@ class TopicDifferences {
  private:
   using Json = nlohmann::ordered_json;
 
-  void walk(const Json& before, const Json& now, const std::string& name, double at_s);
-  void add(const std::string& name, const Json& before, const Json& now, double at_s);
-  void add_text(const std::string& name, std::string before, std::string now, double at_s);
+  struct Place {
+    std::string name;     // as fields() has it
+    std::string element;  // the same with the numbers of elements: "points[2].positions[0]"
+  };
+
+  void walk(const Json& before, const Json& now, const Place& place, double at_s);
+  void walk_array(const Json& before, const Json& now, const Place& place, double at_s);
+  void add(const Place& place, const Json& before, const Json& now, double at_s);
+  void add_text(const Place& place, std::string before, std::string now, double at_s);
   void follow_joints(const Json& message, std::size_t run);
   void add_joints(const Json& joints, std::size_t run);
 

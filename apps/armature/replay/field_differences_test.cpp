@@ -78,6 +78,21 @@ TEST_F(TopicDifferencesTest, TellsTheFirstTextsAndCountsOfElements) {
   EXPECT_EQ(differences_.fields().at("elements of position").now, "\"2\"");
 }
 
+TEST_F(TopicDifferencesTest, NamesTheFirstOctetThatDiffersHoweverFarBehind) {
+  msg::Image picture;
+  picture.data_().resize(400);
+  msg::Image other = picture;
+  other.data_()[398] = 7;
+  other.data_()[399] = 8;
+  compare(picture, other, 2);
+  ASSERT_EQ(differences_.fields().size(), 1U);
+  const FieldDifferences& octets = differences_.fields().at("data[]");
+  EXPECT_EQ(octets.element, "data[398]");
+  EXPECT_EQ(octets.before, "0");
+  EXPECT_EQ(octets.now, "7");
+  EXPECT_EQ(octets.messages, 1U);
+}
+
 TEST_F(TopicDifferencesTest, FollowsJointsFromMessageToMessage) {
   compare(joints({0, 1}), joints({0, 1}), 0);
   compare(joints({0.5, 1.25}), joints({0.5, 3}), 1);

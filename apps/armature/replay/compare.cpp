@@ -203,7 +203,12 @@ class Comparison {
       for (std::size_t i = 0; i < common; ++i) {
         differences.compare(*first[i]->type, first[i]->cdr, second[i]->cdr, at_s);
       }
-      differences.add_unmatched(first.size() - common, second.size() - common);
+      for (std::size_t i = common; i < first.size(); ++i) {
+        differences.add_only_before(*first[i]->type, first[i]->cdr);
+      }
+      for (std::size_t i = common; i < second.size(); ++i) {
+        differences.add_only_now(*second[i]->type, second[i]->cdr);
+      }
     }
   }
 

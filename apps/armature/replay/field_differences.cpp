@@ -42,6 +42,16 @@ void TopicDifferences::compare(const MessageType& type, std::span<const std::byt
   for (const auto& [name, is_in] : in_message_) ++fields_[name].messages;
 }
 
+void TopicDifferences::add_only_before(const MessageType& type, std::span<const std::byte> cdr) {
+  ++only_before_;
+  follow_joints(type, cdr, 0);
+}
+
+void TopicDifferences::add_only_now(const MessageType& type, std::span<const std::byte> cdr) {
+  ++only_now_;
+  follow_joints(type, cdr, 1);
+}
+
 void TopicDifferences::walk(const Json& before, const Json& now, const Place& place, double at_s) {
   if (before.is_object() && now.is_object()) {
     const std::string dot = place.name.empty() ? "" : ".";
@@ -99,6 +109,13 @@ void TopicDifferences::add_text(const Place& place, std::string before, std::str
   field.at_s = at_s;
   field.before = std::move(before);
   field.now = std::move(now);
+}
+
+void TopicDifferences::follow_joints(const MessageType& type, std::span<const std::byte> cdr,
+                                     std::size_t run) {
+  const TypeDescription* description = describe_type(type.dds_name);
+  if (!description) return;
+  if (const auto message = cdr_to_json(*description, cdr)) follow_joints(*message, run);
 }
 
 void TopicDifferences::follow_joints(const Json& message, std::size_t run) {

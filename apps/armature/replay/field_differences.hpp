@@ -30,11 +30,9 @@ class TopicDifferences {
   /// Compares two messages that stand for each other, `at_s` after the beginning.
   void compare(const MessageType& type, std::span<const std::byte> before,
                std::span<const std::byte> now, double at_s);
-  /// Counts messages that only one of the runs has.
-  void add_unmatched(std::uint64_t before, std::uint64_t now) {
-    only_before_ += before;
-    only_now_ += now;
-  }
+  /// Counts a message that only one of the runs has, and follows its joints.
+  void add_only_before(const MessageType& type, std::span<const std::byte> cdr);
+  void add_only_now(const MessageType& type, std::span<const std::byte> cdr);
 
   std::uint64_t messages() const { return messages_; }
   std::uint64_t differing() const { return differing_; }
@@ -43,8 +41,8 @@ class TopicDifferences {
   /// By name: "position[]", "points[].positions[]"; "no number in position[]" where one of two is
   /// NaN or infinite, "elements of position" where one has more.
   const std::map<std::string, FieldDifferences>& fields() const { return fields_; }
-  /// The largest change of a joint from one message, or one point of a trajectory, to the next
-  /// [rad or m], before and now.
+  /// The largest change of a joint from one message, or one point of a trajectory, to the next one
+  /// of the same run [rad or m], before and now.
   const std::array<double, 2>& joint_steps() const { return joint_steps_; }
 
  private:
@@ -59,6 +57,7 @@ class TopicDifferences {
   void walk_array(const Json& before, const Json& now, const Place& place, double at_s);
   void add(const Place& place, const Json& before, const Json& now, double at_s);
   void add_text(const Place& place, std::string before, std::string now, double at_s);
+  void follow_joints(const MessageType& type, std::span<const std::byte> cdr, std::size_t run);
   void follow_joints(const Json& message, std::size_t run);
   void add_joints(const Json& joints, std::size_t run);
 

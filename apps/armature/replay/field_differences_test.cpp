@@ -113,5 +113,16 @@ TEST_F(TopicDifferencesTest, FollowsTheJointsOfEachWayByItself) {
   EXPECT_EQ(differences_.joint_steps()[0], 0.25);
 }
 
+TEST_F(TopicDifferencesTest, FollowsTheJointsOfMessagesThatOnlyOneRunHas) {
+  compare(joints({0}), joints({0}), 0);
+  differences_.add_only_now(message_type<msg::JointState>(), encoded(joints({2})));
+  compare(joints({0.5}), joints({2.25}), 1);
+  differences_.add_only_before(message_type<msg::JointState>(), encoded(joints({1.5})));
+  EXPECT_EQ(differences_.only_now(), 1U);
+  EXPECT_EQ(differences_.only_before(), 1U);
+  EXPECT_EQ(differences_.joint_steps()[0], 1);
+  EXPECT_EQ(differences_.joint_steps()[1], 2);
+}
+
 }  // namespace
 }  // namespace armature

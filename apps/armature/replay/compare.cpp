@@ -19,6 +19,7 @@
 #include "replay/changed_components.hpp"
 #include "replay/field_differences.hpp"
 #include "replay/recorded_text.hpp"
+#include "replay/repetition.hpp"
 #include "replay/replay.hpp"
 #include "replay/replayed_process.hpp"
 #include "replay/watched_ik.hpp"
@@ -117,9 +118,16 @@ struct Side {
   std::deque<Solver> solvers;  // stay where they are
 };
 
+/// The first call that failed with another text than in the recording, or on one side only.
+struct OtherFailure {
+  double at_s = 0;
+  std::string recorded, now;  // empty: it did not fail
+};
+
 /// What is compared of one component.
 struct ComparedComponent {
   std::map<std::string, TopicDifferences> topics;
+  std::optional<OtherFailure> failure;
   std::optional<double> slowest_at_s;
   Duration slowest{0};
 };
@@ -155,12 +163,24 @@ class Comparison {
     notes.insert(now_.process.notes().begin(), now_.process.notes().end());
     return notes;
   }
-  /// Whether all that can be repeated was repeated, and something was.
+  /// Whether all that can be repeated was repeated, and held to the recording, and something was.
   bool is_complete() const {
     const auto ends = [](const auto& entry) { return entry.second.ends.has_value(); };
+    const auto is_unrecorded = [](const auto& held) { return held.second.unrecorded() > 0; };
     return problems().empty() && !components_.empty() &&
+           std::ranges::none_of(repetitions_, is_unrecorded) &&
            std::ranges::none_of(before_.process.entries(), ends) &&
            std::ranges::none_of(now_.process.entries(), ends);
+  }
+
+  /// Whether all that is called recorded is what was recorded.
+  bool repeats() const {
+    return std::ranges::none_of(
+        repetitions_, [](const auto& held) { return held.second.otherwise().has_value(); });
+  }
+  /// Of one of components().
+  const Repetition& repetition(const std::string& component) const {
+    return repetitions_.at(component);
   }
 
   const std::vector<std::string>& changed() const { return changed_; }
@@ -179,12 +199,14 @@ class Comparison {
     now_first_ = !now_first_;
     ReplayedProcess::Entry* first = (now_first_ ? now_ : before_).process.repeat(call, at_s);
     ReplayedProcess::Entry* second = (now_first_ ? before_ : now_).process.repeat(call, at_s);
-    if (!first || !second) return;
-    const auto& before = now_first_ ? *second : *first;
-    const auto& now = now_first_ ? *first : *second;
+    const ReplayedProcess::Entry* before = now_first_ ? second : first;
+    const ReplayedProcess::Entry* now = now_first_ ? first : second;
+    if (before) repetitions_[call.component_()].hold(call, at_s, *before->component, run_);
+    if (!before || !now) return;
     ComparedComponent& compared = components_[call.component_()];
-    compare(before.component->published(), now.component->published(), at_s, compared);
-    const Duration took{now.component->runner().times().duration.counts().last_ns};
+    compare(before->component->published(), now->component->published(), at_s, compared);
+    compare_failure(call.failure_(), now->component->failure().value_or(""), at_s, compared);
+    const Duration took{now->component->runner().times().duration.counts().last_ns};
     if (compared.slowest_at_s && took <= compared.slowest) return;
     compared.slowest_at_s = at_s;
     compared.slowest = took;
@@ -212,6 +234,12 @@ class Comparison {
     }
   }
 
+  static void compare_failure(const std::string& recorded, const std::string& now, double at_s,
+                              ComparedComponent& compared) {
+    if (recorded == now || compared.failure) return;
+    compared.failure = {.at_s = at_s, .recorded = recorded, .now = now};
+  }
+
   static std::vector<const ReplayedMessage*> messages_of(const std::vector<ReplayedMessage>& all,
                                                          const std::string& topic) {
     std::vector<const ReplayedMessage*> messages;
@@ -225,6 +253,7 @@ class Comparison {
   std::vector<std::string> changed_;
   Side before_, now_;
   std::map<std::string, ComparedComponent> components_;
+  std::map<std::string, Repetition> repetitions_;  // of those of the recorded side
   bool now_first_ = false;
 };
 
@@ -289,6 +318,25 @@ void print_solver(const Side::Solver& before, const Side::Solver& now) {
   }
 }
 
+void print_failure(const std::string& component, const OtherFailure& failure) {
+  print_recorded("  at {:.3f} s, '{}': recorded {}, now {}\n", failure.at_s, component,
+                 failure_text(failure.recorded), failure_text(failure.now));
+}
+
+void print_repetition(const std::string& component, const Repetition& repetition) {
+  if (const auto& otherwise = repetition.otherwise()) {
+    print_recorded(
+        "'{}' does not repeat what was recorded (first at {:.3f} s): its differences are not those "
+        "of the change only\n  {}{}{}\n",
+        component, otherwise->at_s, otherwise->topic, otherwise->topic.empty() ? "" : ", ",
+        otherwise->text);
+  }
+  if (repetition.unrecorded() > 0) {
+    print_recorded("not compared with the recording: {} outputs of '{}', which are not in it\n",
+                   repetition.unrecorded(), component);
+  }
+}
+
 void print(const Comparison& comparison) {
   for (const auto& [name, compared] : comparison.components()) {
     const TimingFigures before = times_of(comparison.before(), name);
@@ -307,6 +355,8 @@ void print(const Comparison& comparison) {
       }
     }
     if (!same.empty()) print_recorded("  the same to the last bit: {}\n", same);
+    if (compared.failure) print_failure(name, *compared.failure);
+    print_repetition(name, comparison.repetition(name));
   }
   const auto& before = comparison.before().solvers;
   const auto& now = comparison.now().solvers;
@@ -359,12 +409,22 @@ Json json_of(const Side::Solver& solver) {
   return json;
 }
 
+Json json_of(const OtherFailure& failure) {
+  return {{"at_s", failure.at_s}, {"recorded", failure.recorded}, {"now", failure.now}};
+}
+
+void add_repetition(const Repetition& repetition, Json& component) {
+  if (repetition.unrecorded() > 0) component["not_recorded"] = repetition.unrecorded();
+  if (const auto& otherwise = repetition.otherwise()) {
+    component["not_repeated"] = {
+        {"at_s", otherwise->at_s}, {"topic", otherwise->topic}, {"text", otherwise->text}};
+  }
+}
+
 Json json_of(const Comparison& comparison) {
-  Json json{{"process", comparison.process()},
-            {"complete", comparison.is_complete()},
-            {"problems", comparison.problems()},
-            {"components", Json::array()},
-            {"solvers", Json::array()}};
+  Json json{{"process", comparison.process()}, {"complete", comparison.is_complete()},
+            {"repeats", comparison.repeats()}, {"problems", comparison.problems()},
+            {"components", Json::array()},     {"solvers", Json::array()}};
   for (const auto& [name, compared] : comparison.components()) {
     const TimingFigures before = times_of(comparison.before(), name);
     const TimingFigures now = times_of(comparison.now(), name);
@@ -378,6 +438,8 @@ Json json_of(const Comparison& comparison) {
     for (const auto& [topic, differences] : compared.topics) {
       told["topics"][topic] = json_of(differences);
     }
+    if (compared.failure) told["failure"] = json_of(*compared.failure);
+    add_repetition(comparison.repetition(name), told);
     const auto& ends = comparison.now().process.entries().at(name).ends;
     if (ends) told["ends"] = *ends;
   }
@@ -401,7 +463,7 @@ int compare_with_recording(const ReplayOptions& options) {
   name_crashing_components();
   PluginRegistry plugins;
   Json json = Json::array();
-  bool any = false, is_complete = true;
+  bool any = false, is_sound = true;
   std::set<std::string> told;  // of a file with several processes, once
   const auto tell = [&](const std::string& text) {
     if (told.insert(text).second) fmt::print(stderr, "armature: {}\n", terminal_text(text));
@@ -419,7 +481,7 @@ int compare_with_recording(const ReplayOptions& options) {
       if (comparison.components().empty()) {
         tell(fmt::format("'{}': nothing of process '{}' was compared", file.string(), process));
       }
-      is_complete = is_complete && comparison.is_complete();
+      is_sound = is_sound && comparison.is_complete() && comparison.repeats();
       if (options.json) {
         json.push_back(json_of(comparison));
       } else {
@@ -429,7 +491,7 @@ int compare_with_recording(const ReplayOptions& options) {
   }
   if (!any) throw InvalidChoice("the assignments change no component of the recording");
   if (options.json) print_out("{}\n", json_text(json));
-  return is_complete ? kOk : kFailed;
+  return is_sound ? kOk : kFailed;
 }
 
 }  // namespace armature

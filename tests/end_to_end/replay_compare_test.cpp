@@ -2,7 +2,9 @@
 // 1. `armature replay --set` compares every component that the change reaches, and only those. 2.
 // What it calls recorded is what was recorded. 3. A call that fails on one side only is told.
 #include <filesystem>
+#include <fstream>
 #include <functional>
+#include <iterator>
 #include <map>
 
 #include "armature/messages/armature_msgs.hpp"
@@ -142,6 +144,22 @@ TEST_F(Compare, WhatIsNotInTheRecordingCannotBeHeldToIt) {
   EXPECT_EQ(component_of(compared, "head").value("not_recorded", 0), 2) << "the markers, the plan";
   EXPECT_THAT(compare(kChange).out,
               HasSubstr("not compared with the recording: 2 outputs of 'head'"));
+}
+
+TEST_F(Compare, ARecordingOfAnotherProcessorIsRefusedAsByCheck) {
+  record_needle();
+  // The level of the processor stands between other texts of the same length.
+  std::fstream recording{file(), std::ios::in | std::ios::out | std::ios::binary};
+  const std::string bytes{std::istreambuf_iterator<char>{recording}, {}};
+  const std::size_t level = bytes.find("x86-64-v");
+  if (level == std::string::npos) GTEST_SKIP() << "only known of x86-64";
+  recording.seekp(static_cast<std::streamoff>(level));
+  recording.write("x86-64-v9", 9);
+  recording.close();
+  const CommandResult refused = compare(kChange);
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("--allow-ulp"));
+  EXPECT_THAT(compare(kChange, {"--allow-ulp"}).out, HasSubstr("'head', "));
 }
 
 // 3.

@@ -139,7 +139,9 @@ class Comparison {
       : run_{file, process},
         changed_{changed_of(run_, plugins, options.assignments)},
         before_{run_, plugins, {}, or_none(changed_)},
-        now_{run_, plugins, options.assignments, or_none(changed_)} {}
+        now_{run_, plugins, options.assignments, or_none(changed_)} {
+    if (!options.allow_ulp && !changed_.empty()) check_processor(run_);
+  }
 
   void run() {
     std::optional<Time> start;

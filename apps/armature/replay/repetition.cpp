@@ -7,9 +7,9 @@
 #include <span>
 #include <utility>
 
-#include "armature/config/document.hpp"
 #include "armature/messages/known_types.hpp"
 #include "replay/message_difference.hpp"
+#include "terminal_text.hpp"
 
 namespace armature {
 namespace {
@@ -27,7 +27,7 @@ std::string first_difference_of(const ReplayedMessage& message,
 }  // namespace
 
 std::string failure_text(const std::string& failure) {
-  return failure.empty() ? "it does not fail" : config::in_quotes(failure);
+  return failure.empty() ? "it does not fail" : "'" + terminal_text(failure) + "'";
 }
 
 void Repetition::hold(const msg::Activation& call, double at_s, const ReplayedComponent& component,

@@ -9,8 +9,15 @@
 
 #include "armature/runtime/execution/real_time_thread.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
+#include "armature/values/sanitizer.hpp"
 
 namespace armature {
+namespace {
+
+/// The shortest delay that is told: the limit of motion (max_lateness_s).
+constexpr Duration kLate = std::chrono::milliseconds{kSanitized ? 500 : 100};
+
+}  // namespace
 
 Executor::Executor(ExecutorSpec spec, const Clock& clock)
     : spec_{std::move(spec)}, clock_{&clock} {}
@@ -44,7 +51,9 @@ bool Executor::has_period() const {
   return std::ranges::any_of(entries_, [](const Entry& entry) { return entry.period.has_value(); });
 }
 
-void Executor::start(const std::function<void(const std::string&)>& note) {
+void Executor::start(const std::function<void(const std::string&)>& note,
+                     std::function<void(const std::string&)> on_late) {
+  on_late_ = std::move(on_late);
   if (spec_.lock_memory) {
     if (const std::string refusal = lock_process_memory(); !refusal.empty()) {
       note(fmt::format("executor '{}' runs without locked memory: {}", spec_.name, refusal));
@@ -110,6 +119,31 @@ std::optional<Time> Executor::take_release(Entry& entry, Time now) {
   return release;
 }
 
+void Executor::step(Entry& entry, Time now, Time release) {
+  entry.runner->activate(now, now - release);
+  // After the step: it is late enough.
+  if (entry.period && now - release >= kLate) tell_late(entry, now, release);
+  entry.stepped_until = clock_->now();
+  entry.step_took = entry.stepped_until - now;
+}
+
+/// Tells which step kept `late` from its release, its own or another one's, if one took at least
+/// half of that time. A machine that is busy with other things is not told here.
+void Executor::tell_late(const Entry& late, Time now, Time release) {
+  const Entry* slow = nullptr;
+  for (const Entry& entry : entries_) {
+    if (entry.stepped_until <= release || 2 * entry.step_took < now - release) continue;
+    if (!slow || slow->step_took < entry.step_took) slow = &entry;
+  }
+  if (!slow || !on_late_ || !late_notes_.due(now)) return;
+  on_late_(fmt::format("'{}' was activated {:.2f} s late: {} took {:.2f} s", late.runner->name(),
+                       to_seconds(now - release),
+                       slow == &late ? "its own step before"
+                                     : fmt::format("the step of '{}', which shares executor '{}',",
+                                                   slow->runner->name(), spec_.name),
+                       to_seconds(slow->step_took)));
+}
+
 void Executor::activate_due() {
   std::optional<Time> begin;
   for (Entry& entry : entries_) {
@@ -122,7 +156,7 @@ void Executor::activate_due() {
         begin = now;
         times_.lateness.add(now - *release);
       }
-      entry.runner->activate(now, now - *release);
+      step(entry, now, *release);
     }
     running_.store(nullptr, std::memory_order_release);
   }

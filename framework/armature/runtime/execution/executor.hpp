@@ -2,6 +2,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <future>
@@ -15,6 +16,7 @@
 #include "armature/runtime/deployment_file/executor_spec.hpp"
 #include "armature/runtime/execution/clock.hpp"
 #include "armature/runtime/execution/component_runner.hpp"
+#include "armature/runtime/execution/rate_limiter.hpp"
 #include "armature/values/wake_up.hpp"
 
 namespace armature ARMATURE_EXPORT {
@@ -29,8 +31,10 @@ class Executor {
 
   void assign(ComponentRunner& runner);
   /// Starts the thread, and returns when it is as the specification says and about to take its
-  /// first step; the note says what the system did not allow.
-  void start(const std::function<void(const std::string&)>& note);
+  /// first step; `note` says what the system did not allow. While it runs `on_late` says, in its
+  /// thread and about once in 10 s, whose step made a component with a period come late.
+  void start(const std::function<void(const std::string&)>& note,
+             std::function<void(const std::string&)> on_late = {});
   /// Makes every component come to rest (Component::begin_stop), at once or when its running step
   /// is over; steps go on. Any thread.
   void begin_stop();
@@ -52,12 +56,16 @@ class Executor {
     std::optional<Duration> period;
     Time next_release;
     std::atomic<std::int64_t>* triggered_ns;  // since when, or kNever
+    Time stepped_until{};                     // its last step, and how long that took
+    Duration step_took{0};
   };
   static constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::min();
 
   bool has_period() const;
   void loop();
   void activate_due();
+  void step(Entry& entry, Time now, Time release);
+  void tell_late(const Entry& late, Time now, Time release);
   static std::optional<Time> take_release(Entry& entry, Time now);
   std::optional<Time> next_release() const;
 
@@ -67,6 +75,8 @@ class Executor {
   std::vector<std::unique_ptr<std::atomic<std::int64_t>>> triggers_;
   WakeUp wake_;
   CycleTimes times_;
+  std::function<void(const std::string&)> on_late_;
+  RateLimiter late_notes_{std::chrono::seconds{10}};
   std::atomic<bool> stopping_{false};
   std::atomic<const ComponentRunner*> running_{nullptr};
   std::promise<void> end_;

@@ -2,6 +2,7 @@
 // What an executor asks of the operating system: seen from its own thread.
 #include "armature/runtime/execution/executor.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/capability.h>
 #include <pthread.h>
@@ -204,6 +205,45 @@ TEST_F(ExecutorTest, KnowsOfEveryStepHowLateItBeganAndHowLongItTook) {
   EXPECT_EQ(after->executor_times(), &executor.times());
   EXPECT_GE(figures(executor.times().duration).mean_s, 0.002);
   EXPECT_LT(figures(executor.times().lateness).mean_s, figures(after->times().lateness).mean_s);
+}
+
+TEST_F(ExecutorTest, WhoseStepMadeAnotherComeLateIsToldOnce) {
+  constexpr auto kHold = std::chrono::milliseconds{kSanitized ? 1000 : 300};
+  std::atomic<int> steps{0};
+  const auto slow = make_runner("slow", 0, [&](Time) {
+    if (steps % 3 == 2) std::this_thread::sleep_for(kHold);
+  });
+  const auto arm = make_runner("arm", 1, [&](Time) { ++steps; });
+  Executor executor{{.name = "control", .period = seconds(0.01)}, clock_};
+  executor.assign(*slow);
+  executor.assign(*arm);
+  std::vector<std::string> notes;
+  executor.start([](const std::string&) {},
+                 [&](const std::string& note) { notes.push_back(note); });
+  while (steps < 7) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+  executor.request_stop();
+  executor.join();
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_THAT(notes[0], testing::MatchesRegex("'arm' was activated [0-9.]+ s late: the step of "
+                                              "'slow', which shares executor 'control', took "
+                                              "[0-9.]+ s"));
+}
+
+TEST_F(ExecutorTest, AStepThatMadeItsOwnNextOneComeLateIsTold) {
+  std::atomic<int> steps{0};
+  const auto slow = make_runner("slow", 0, [&](Time) {
+    if (++steps == 2) std::this_thread::sleep_for(std::chrono::seconds{1});
+  });
+  Executor executor{{.name = "control", .period = seconds(0.01)}, clock_};
+  executor.assign(*slow);
+  std::vector<std::string> notes;
+  executor.start([](const std::string&) {},
+                 [&](const std::string& note) { notes.push_back(note); });
+  while (steps < 4) std::this_thread::sleep_for(std::chrono::milliseconds{1});
+  executor.request_stop();
+  executor.join();
+  ASSERT_EQ(notes.size(), 1U);
+  EXPECT_THAT(notes[0], testing::HasSubstr("s late: its own step before took 1."));
 }
 
 TEST_F(ExecutorTest, ATriggeredStepIsAsLateAsItsTriggerIsOld) {

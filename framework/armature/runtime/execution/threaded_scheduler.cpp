@@ -33,7 +33,7 @@ void ThreadedScheduler::assign(const ExecutorSpec& executor,
 
 void ThreadedScheduler::run(const std::function<bool()>& done) {
   if (!std::exchange(started_, true)) {
-    for (Executor& executor : executors_) executor.start(note_);
+    for (Executor& executor : executors_) executor.start(note_, on_late_);
   }
   while (!done()) std::this_thread::sleep_for(std::chrono::milliseconds{10});
 }

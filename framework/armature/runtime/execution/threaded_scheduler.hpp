@@ -14,8 +14,10 @@ namespace armature ARMATURE_EXPORT {
 /// The system clock's scheduler: every executor is a thread, samples are handed over at once.
 class ThreadedScheduler final : public Scheduler {
  public:
-  ThreadedScheduler(const Clock& clock, std::function<void(const std::string&)> note)
-      : clock_{&clock}, note_{std::move(note)} {}
+  using Note = std::function<void(const std::string&)>;
+  /// As Executor::start() has them.
+  ThreadedScheduler(const Clock& clock, Note note, Note on_late = {})
+      : clock_{&clock}, note_{std::move(note)}, on_late_{std::move(on_late)} {}
 
   void assign(const ExecutorSpec& executor, const std::vector<ComponentRunner*>& runners) override;
   void run(const std::function<bool()>& done) override;
@@ -27,7 +29,7 @@ class ThreadedScheduler final : public Scheduler {
 
  private:
   const Clock* clock_;
-  std::function<void(const std::string&)> note_;
+  Note note_, on_late_;
   std::deque<Executor> executors_;
   bool started_ = false;
 };

@@ -59,12 +59,14 @@ void carry_on(Matrix12& covariance, double dt, double decay) {
   }
 }
 
-/// Variances that a rate of variance `rate` and an acceleration of variance `acceleration`, both
-/// constant over dt and unknown, add to one block.
+/// Variances that a rate of variance `rate`, constant over dt, and an acceleration that is white
+/// noise and changes the rate over dt as one of variance `acceleration` would, add to one block
+/// (Bar-Shalom et al. 2001, section 6.2.2). An acceleration that is constant over dt would be of
+/// rank one: with good measurements that are far apart, the rate then swings from one to the next.
 void add_process_noise(Matrix12& covariance, int block, double dt, double rate,
                        double acceleration) {
   const double dt2 = dt * dt;
-  covariance.block<3, 3>(block, block).diagonal().array() += 0.25 * acceleration * dt2 * dt2;
+  covariance.block<3, 3>(block, block).diagonal().array() += acceleration * dt2 * dt2 / 3;
   covariance.block<3, 3>(block, block + 3).diagonal().array() += 0.5 * acceleration * dt2 * dt;
   covariance.block<3, 3>(block + 3, block).diagonal().array() += 0.5 * acceleration * dt2 * dt;
   covariance.block<3, 3>(block + 3, block + 3).diagonal().array() += acceleration * dt2 + rate;

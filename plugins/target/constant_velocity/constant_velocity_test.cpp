@@ -125,6 +125,29 @@ TEST(ConstantVelocity, FollowsAPatientWhoMovesFiftyMillimetresAndTenDegreesInASe
   }
 }
 
+TEST(ConstantVelocity, ComesToRestWithThePatientHoweverRarelyHeIsSeen) {
+  const ConstantVelocity filter{{}};
+  for (const double hz : {2.0, 3.0, 5.0, 10.0, 30.0}) {
+    SCOPED_TRACE(hz);
+    Camera camera{7, 0.00013, 0.02 * kRadPerDegree};
+    PluginState state;
+    double fastest = 0, turning = 0;  // from 4 s after his stop on
+    for (int i = 0; i < 30 * hz; ++i) {
+      const double t = i / hz, share = std::clamp((t - 8.03) / 3, 0.0, 1.0);
+      const double turn = 30 * kRadPerDegree * share;
+      const auto estimate = filter.update(camera.look(t, kMouth + share * Vector3d{0, 0.15, 0},
+                                                      {-std::cos(turn), std::sin(turn), 0}),
+                                          state);
+      ASSERT_TRUE(estimate) << estimate.error().text;
+      if (t < 15) continue;
+      fastest = std::max(fastest, estimate->velocity.norm());
+      turning = std::max(turning, estimate->normal_rate.norm());
+    }
+    EXPECT_LT(fastest, 0.003) << "m/s";
+    EXPECT_LT(turning, 0.3 * kRadPerDegree) << "rad/s";
+  }
+}
+
 TEST(ConstantVelocity, FollowsThroughThePapersNoise) {
   for (std::uint64_t seed = 0; seed < 50; ++seed) {
     SCOPED_TRACE(seed);

@@ -48,8 +48,10 @@ bool FaceWatch::see(const FaceEstimate& estimate) {
     is_no_patient_ = false;
   }
   if (estimate.measurements < parameters_.min_measurements) {
-    see_no_estimate(fmt::format("it was measured {} times, {} times are wanted",
-                                estimate.measurements, parameters_.min_measurements));
+    see_no_estimate(
+        fmt::format("it was measured {} times, {} times are wanted, none more than "
+                    "the target's max_gap_s after the one before",
+                    estimate.measurements, parameters_.min_measurements));
     return false;
   }
   const Eigen::Vector3d& at = estimate.mouth;

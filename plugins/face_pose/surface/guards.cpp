@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -13,6 +14,10 @@ namespace armature::face_pose::surface {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
+// Of an eye that turns away from the camera on a narrow head a finder sees the border and not the
+// middle, and sees it so in every look.
+constexpr double kMaxAside = 50 / kDegrees, kMaxApart = 56 / kDegrees;
+constexpr double kMaxShift = 0.003;  // [m] by which pictures that are not rectified move a face
 
 /// [m/px] by how much a pixel of disparity moves what is in the middle of the face.
 double depth_by_pixel(const DisparitySurface& surface, const StereoCamera& camera) {
@@ -108,6 +113,24 @@ Expected<void> feature_is_uncovered(const char* name, const Eigen::Vector2d& at,
   return {};
 }
 
+Expected<void> eyes_face_the_camera(const Features& features, const DisparitySurface& left,
+                                    const DisparitySurface& right, const StereoCamera& camera) {
+  const std::array normals{left.tangent(features.left_eye).plane_normal(camera),
+                           right.tangent(features.right_eye).plane_normal(camera)};
+  const double apart = std::acos(std::clamp(normals[0].dot(normals[1]), -1., 1.));
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    const Eigen::Vector3d sight = (i == 0 ? left : right).point(features[i], camera).normalized();
+    const double aside = std::acos(std::clamp(-sight.dot(normals[i]), -1., 1.));
+    if (aside <= kMaxAside || apart <= kMaxApart) continue;
+    return refuse(FaceRefusal::implausible,
+                  fmt::format("the {} is seen from {:.0f} degrees aside on a head so narrow that "
+                              "its eyes look {:.0f} degrees apart, more than {:.0f}",
+                              kFaceFeatures[i].name, aside * kDegrees, apart * kDegrees,
+                              kMaxApart * kDegrees));
+  }
+  return {};
+}
+
 Expected<void> pictures_are_rectified(const Alignment& aligned, const StereoCamera& camera,
                                       const Parameters& parameters) {
   // Rows that differ come with columns that do: a turn of a camera tilts the face by as much as
@@ -123,6 +146,19 @@ Expected<void> pictures_are_rectified(const Alignment& aligned, const StereoCame
                     "by {:.2f} px from one side of the face to the other, which is a "
                     "tilt of {:.1f} degrees; calibrate the cameras again",
                     std::abs(aligned.rows[0]), 2 * aligned.rows.tail<2>().norm(), tilt * kDegrees));
+  }
+  // Another focal length or a roll moves columns aside from the optical axis, too: rows by
+  // (a x + b y) means columns by (b x - a y).
+  const Eigen::Vector2d aside = aligned.surface.middle - Eigen::Vector2d{camera.cx, camera.cy};
+  const double columns =
+      (aligned.rows[2] * aside.x() - aligned.rows[1] * aside.y()) / aligned.surface.reach;
+  const double shift = std::abs(columns) * depth_by_pixel(aligned.surface, camera);
+  if (shift > kMaxShift) {
+    return refuse(FaceRefusal::not_rectified,
+                  fmt::format("the pictures are not rectified: their rows differ as with another "
+                              "focal length or a turn that moves the face by {:.1f} mm, more than "
+                              "{:.1f}; calibrate the cameras again",
+                              shift * 1e3, kMaxShift * 1e3));
   }
   return {};
 }

@@ -27,6 +27,11 @@ Expected<void> feature_is_uncovered(const char* name, const Eigen::Vector2d& at,
                                     const Alignment& own, const Alignment& aligned,
                                     const StereoCamera& camera, const Parameters& parameters);
 
+/// No eye turns away from the camera on a narrow head; `left` and `right`: the surfaces around the
+/// eyes.
+Expected<void> eyes_face_the_camera(const Features& features, const DisparitySurface& left,
+                                    const DisparitySurface& right, const StereoCamera& camera);
+
 /// The rows of both pictures are the same.
 Expected<void> pictures_are_rectified(const Alignment& aligned, const StereoCamera& camera,
                                       const Parameters& parameters);

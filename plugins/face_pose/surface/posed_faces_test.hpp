@@ -35,6 +35,7 @@ struct Circumstances {
   double landmark_error = 1.5;  // [px] standard deviation in each picture, of a whole feature
   double depth = 0.5;           // [m]
   double max_turn_deg = 30;     // [degrees] about the upright and the level axis
+  double aside = 0;             // [m] to the right of the left camera's axis
 };
 
 /// One face as both cameras see it.
@@ -80,7 +81,7 @@ inline PosedFace posed_face(const Circumstances& how, std::uint64_t seed) {
   std::uniform_real_distribution<double> unit{-1, 1};
   std::normal_distribution<double> error{0, how.landmark_error};
   const double turned = how.max_turn_deg * std::numbers::pi / 180;
-  const Eigen::Vector3d mouth{0.05 * unit(random), 0.03 + 0.04 * unit(random),
+  const Eigen::Vector3d mouth{how.aside + 0.05 * unit(random), 0.03 + 0.04 * unit(random),
                               how.depth * (1 + 0.1 * unit(random))};
   const double yaw = turned * unit(random), pitch = turned * unit(random);
   const Eigen::Isometry3d left_T_face =

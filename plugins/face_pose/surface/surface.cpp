@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -166,6 +167,7 @@ Expected<void> Surface::find_again(const FacePoseInput& input, const Alignment& 
 
 Expected<void> Surface::see_features(const Alignment& aligned, const StereoCamera& camera,
                                      Located& located) {
+  std::array<DisparitySurface, 3> around;
   for (std::size_t i = 0; i < kFaceFeatures.size(); ++i) {
     const auto& [which, name, area] = kFaceFeatures[i];
     Alignment& own = located.own[i] = aligned;
@@ -176,9 +178,10 @@ Expected<void> Surface::see_features(const Alignment& aligned, const StereoCamer
     }
     auto seen = feature_is_uncovered(name, located.at[i], own, aligned, camera, parameters_);
     if (!seen) return seen;
+    around[i] = own.surface;
     located.relief[i] = come_near(area, located.at[i], own);
   }
-  return {};
+  return eyes_face_the_camera(located.at, around[0], around[1], camera);
 }
 
 /// Aligns the middle of a feature alone, where `own` is its surroundings. What lies before or

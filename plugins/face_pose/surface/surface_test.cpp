@@ -169,6 +169,14 @@ INSTANTIATE_TEST_SUITE_P(
         Fault{"one_camera_nearly_black", {.right = {.gain = 0.2}}, "times as bright"},
         Fault{"turned_camera", {.right = {.roll = 0.3 * kDegree}}, kNotRectified},
         Fault{"longer_focal_length", {.right = {.focal = 1.01}}, kNotRectified},
+        Fault{"nothing_and_far_aside", {.depth = 1, .aside = 0.5}, "never"},
+        Fault{"noise_and_far_aside", {.noise = 8, .depth = 1, .aside = 0.5}, kNotRectified},
+        Fault{"longer_focal_length_far_aside",
+              {.right = {.focal = 1.0012}, .depth = 1, .aside = 0.5},
+              kNotRectified},
+        Fault{"shorter_focal_length_far_aside",
+              {.right = {.focal = 0.998}, .depth = 1, .aside = -0.35},
+              kNotRectified},
         Fault{"lower_camera", {.right = {.shift_px = {0, 1}}}, kNotRectified}),
     [](const auto& test) { return test.param.name; });
 
@@ -191,6 +199,21 @@ TEST(SurfaceGuards, RefuseAFaceThatIsTooFarTooSmallOrTooMuchAside) {
   exact.max_normal_sigma = 1e-5;
   EXPECT_THAT(refusal({}, exact), testing::HasSubstr("the normal would be known to"));
   EXPECT_EQ(refusal({}, {}), "accepted");
+}
+
+TEST(SurfaceGuards, RefuseAFaceWhoseEyeTurnsTooFarAwayOnANarrowHead) {
+  const auto refused = [](double radius_m) {
+    const scene::Staging head{.surface = {scene::Surface::Shape::cylinder, radius_m}};
+    int count = 0;
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+      const auto found =
+          estimated(posed_face({.staging = head, .landmark_error = 0.7, .max_turn_deg = 35}, seed));
+      if (!found && found.error().text.find("on a head so narrow") != std::string::npos) ++count;
+    }
+    return count;
+  };
+  EXPECT_GT(refused(0.045), 0);
+  EXPECT_EQ(refused(0.1), 0);
 }
 
 TEST(SurfaceGuards, RefusePicturesThatAreNoneOrOfAnotherCamera) {

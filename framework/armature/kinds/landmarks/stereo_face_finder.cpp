@@ -18,6 +18,8 @@ constexpr double kStripSlack = 0.35;    // of the box height: rows searched abov
 constexpr double kMaxDisparity = 1.6;   // of the box width: columns searched to the left
 constexpr double kCoarseness = 0.15;    // of the box width: by which a detector's box may be aside
 constexpr double kMaxWidthRatio = 1.3;  // of the boxes of one face: a step of detectors is 1.2
+constexpr double kStep = 0.2;           // of the box width: by which boxes of one face may differ
+constexpr double kSameRows = 0.03;      // of the box width: landmarks of one face are so near
 
 /// Why the views are no stereo pair.
 std::optional<std::string> no_pair(const ImageView& left, const ImageView& right) {
@@ -62,6 +64,18 @@ bool can_be_one_face(const PixelBox& in_right, const PixelBox& in_left) {
   return difference(in_right, in_left) < kImpossible && ratio < kMaxWidthRatio &&
          ratio > 1 / kMaxWidthRatio &&
          std::abs(centre(in_right).y() - centre(in_left).y()) < kStripSlack * in_left.height;
+}
+
+/// By how much the landmarks of two boxes differ in rows, on the average [px]; infinitely much
+/// where those of the right picture are not further left.
+double row_difference(const std::vector<Landmark>& in_right, const std::vector<Landmark>& in_left) {
+  double rows = 0, columns = 0;
+  for (std::size_t i = 0; i < in_left.size(); ++i) {
+    const Eigen::Vector2d apart = in_right[i].point - in_left[i].point;
+    rows += std::abs(apart.y());
+    columns += apart.x();
+  }
+  return columns < 0 ? rows / static_cast<double>(in_left.size()) : kImpossible;
 }
 
 /// The rows and columns of the right picture where the face must be that the left one has so.
@@ -149,7 +163,7 @@ std::optional<Reason> StereoFaceFinder::detect_both(const ImageView& left, const
   if (!*in_left) return Reason{"no face in the left image"};
   if (is_kept) return Reason{"the face is not in the left image, another one is"};
   state.left = State::Face{.where = **in_left};
-  const Faces in_right = find_right(right, box(last.right), state.left->where.box);
+  const Faces in_right = find_right(right, box(last.right), left, state.left->where.box);
   if (!in_right) return in_right.error();
   if (!*in_right) {
     const Faces aside = find_on_wrong_side(right, state.left->where.box);
@@ -179,6 +193,7 @@ StereoFaceFinder::Faces StereoFaceFinder::find_left(const ImageView& left,
 // The pair is rectified: the right picture has the face in the same rows, further left.
 StereoFaceFinder::Faces StereoFaceFinder::find_right(const ImageView& right,
                                                      const std::optional<PixelBox>& last,
+                                                     const ImageView& left,
                                                      const PixelBox& in_left) {
   if (last) {
     const auto to_last = [&](const PixelBox& face) {
@@ -189,10 +204,40 @@ StereoFaceFinder::Faces StereoFaceFinder::find_right(const ImageView& right,
     if (!near || *near) return near;
   }
   const auto to_left = [&](const PixelBox& face) { return difference(face, in_left); };
-  const Faces in_strip =
-      detect(right, {.box = strip_of(in_left), .face_width = in_left.width}, to_left);
-  if (!in_strip || *in_strip) return in_strip;
-  return detect(right, {.box = whole(right)}, to_left);
+  std::optional<DetectedFace> likely;
+  double likely_rows = kImpossible;
+  for (const SearchRegion& region :
+       {SearchRegion{strip_of(in_left), in_left.width}, SearchRegion{whole(right), std::nullopt}}) {
+    const auto faces = detect_all(right, region, to_left);
+    if (!faces) return tl::unexpected{faces.error()};
+    if (faces->empty()) continue;
+    const auto [face, rows] = most_alike(right, *faces, left, in_left);
+    if (!likely || rows < likely_rows) {
+      likely = face;
+      likely_rows = rows;
+    }
+    if (rows < kSameRows * in_left.width) break;
+  }
+  return likely;
+}
+
+/// Of faces in the right picture whose boxes cannot be told apart, least cost first, the one whose
+/// landmarks lie in the rows of the left face's, and by how much those differ [px].
+std::pair<DetectedFace, double> StereoFaceFinder::most_alike(const ImageView& right,
+                                                             const std::vector<DetectedFace>& faces,
+                                                             const ImageView& left,
+                                                             const PixelBox& in_left) {
+  std::pair<DetectedFace, double> best{faces.front(), kImpossible};
+  const auto of_left = landmarks_.find(left, in_left);
+  const double least = difference(faces.front().box, in_left);
+  for (const DetectedFace& face : faces) {
+    if (!of_left || difference(face.box, in_left) > least + kStep * in_left.width) break;
+    const auto of_right = landmarks_.find(right, face.box);
+    if (!of_right || of_right->size() != of_left->size()) continue;
+    const double rows = row_difference(*of_right, *of_left);
+    if (rows < best.second) best = {face, rows};
+  }
+  return best;
 }
 
 // Where the pictures are exchanged the same face is as far to the right as it should be to the
@@ -210,14 +255,22 @@ StereoFaceFinder::Faces StereoFaceFinder::find_on_wrong_side(const ImageView& ri
 /// The face that costs least; nothing when there is none that is possible.
 StereoFaceFinder::Faces StereoFaceFinder::detect(const ImageView& image, const SearchRegion& region,
                                                  const Cost& cost) {
+  return detect_all(image, region, cost).map([](const std::vector<DetectedFace>& faces) {
+    return faces.empty() ? std::nullopt : std::optional{faces.front()};
+  });
+}
+
+/// All that are possible, least cost first.
+Expected<std::vector<DetectedFace>> StereoFaceFinder::detect_all(const ImageView& image,
+                                                                 const SearchRegion& region,
+                                                                 const Cost& cost) {
   auto faces = detector_.detect(image, region);
   if (!faces) return tl::unexpected{faces.error()};
   std::erase_if(*faces, [&](const DetectedFace& face) {
     return !is_sound(face.box) || cost(face.box) == kImpossible;
   });
-  if (faces->empty()) return std::optional<DetectedFace>{};
-  return *std::ranges::min_element(*faces, {},
-                                   [&](const DetectedFace& face) { return cost(face.box); });
+  std::ranges::stable_sort(*faces, {}, [&](const DetectedFace& face) { return cost(face.box); });
+  return faces;
 }
 
 Expected<FaceLandmarks> StereoFaceFinder::landmarks(const ImageView& original,

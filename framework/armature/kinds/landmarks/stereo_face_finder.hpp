@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "armature/kinds/detector/detector.hpp"
@@ -27,7 +28,8 @@ double mean_intensity(const ImageView& image, const PixelBox& box);
 /// Of several faces in the left picture it keeps to the one that it has: the nearest to the last
 /// one, also where one pair misses that, and the largest where there was none. In the right picture
 /// it takes the same face: not further right than in the left one; near the last one, where that
-/// has about the same rows and size; else the one whose rows and size are most alike. The
+/// has about the same rows and size; else the one whose rows and size are most alike, and of those
+/// that are as alike as a detector tells the one whose landmarks lie in the same rows. The
 /// detector's score chooses nothing: it changes from picture to picture.
 class StereoFaceFinder {
  public:
@@ -62,10 +64,15 @@ class StereoFaceFinder {
   std::optional<Reason> detect_both(const ImageView& left, const ImageView& right, State& state);
   Faces find_left(const ImageView& left, const std::optional<PixelBox>& last);
   Faces find_right(const ImageView& right, const std::optional<PixelBox>& last,
-                   const PixelBox& in_left);
+                   const ImageView& left, const PixelBox& in_left);
+  std::pair<DetectedFace, double> most_alike(const ImageView& right,
+                                             const std::vector<DetectedFace>& faces,
+                                             const ImageView& left, const PixelBox& in_left);
   Faces find_on_wrong_side(const ImageView& right, const PixelBox& in_left);
   using Cost = std::function<double(const PixelBox& face)>;
   Faces detect(const ImageView& image, const SearchRegion& region, const Cost& cost);
+  Expected<std::vector<DetectedFace>> detect_all(const ImageView& image, const SearchRegion& region,
+                                                 const Cost& cost);
   Expected<FaceLandmarks> landmarks(const ImageView& original, const ImageView& stretched,
                                     State::Face& face);
 

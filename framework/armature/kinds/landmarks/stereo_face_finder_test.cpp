@@ -7,7 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
+#include <span>
+#include <vector>
 
 #include "armature/kinds/face_picture.hpp"
 
@@ -52,11 +55,15 @@ class BoxCorners final : public LandmarkFinder {
                                      {b.right(), b.bottom()}}) {
       points.push_back({.point = p, .sigma = 0.5});
     }
+    if (std::ranges::find(lower_mouth_at, box.left) != lower_mouth_at.end()) {
+      for (Landmark& mouth : std::span{points}.last(2)) mouth.point.y() += 9;
+    }
     if (is_short) points.pop_back();
     return points;
   }
   bool is_short = false;
-  double aside = 0, larger = 1;  // [px]; of the box
+  std::vector<double> lower_mouth_at;  // [px] left borders of boxes
+  double aside = 0, larger = 1;        // [px]; of the box
 };
 
 class StereoFaceFinderTest : public ::testing::Test {
@@ -166,6 +173,26 @@ TEST_F(StereoFaceFinderTest, TakesTheSameFaceInBothPicturesWhenTwoAreThere) {
   ASSERT_TRUE(found) << found.error().text;
   EXPECT_EQ(found->left.box.left, 250);
   EXPECT_EQ(found->right.box.left, 205);
+}
+
+TEST_F(StereoFaceFinderTest, TellsTwoThatAreSideBySideApartByTheirLandmarks) {
+  // Boxes of one size in the same rows; the person on the left holds the mouth 9 px lower.
+  corners_.lower_mouth_at = {200, 50};
+  detector_.left = {face(200, 100, 80), face(300, 100, 79)};
+  detector_.right = {face(170, 100, 80), face(50, 101, 81)};
+  const auto found = find();
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_EQ(found->left.box.left, 200);
+  EXPECT_EQ(found->right.box.left, 50);
+}
+
+TEST_F(StereoFaceFinderTest, SearchesEverywhereWhereTheFaceInTheSameRowsIsAnotherOne) {
+  corners_.lower_mouth_at = {250, 30};  // outside the strip: further left than faces mostly are
+  detector_.left = {face(250, 100, 80), face(330, 100, 60)};
+  detector_.right = {face(160, 100, 80), face(30, 101, 80)};
+  const auto found = find();
+  ASSERT_TRUE(found) << found.error().text;
+  EXPECT_EQ(found->right.box.left, 30);
 }
 
 TEST_F(StereoFaceFinderTest, AFaceThatIsFurtherRightInTheRightPictureIsAnotherOne) {

@@ -51,7 +51,7 @@ TEST_F(Hosts, RunOneDeploymentByOneClock) {
   EXPECT_EQ(ended.exit_code, 0) << ended.err << desk_ended.err;
   EXPECT_EQ(desk_ended.exit_code, 0) << desk_ended.err;
   EXPECT_THAT(ended.err, HasSubstr("waiting for host 'desk': run the same file there with --host "
-                                   "desk"));
+                                   "desk; if it runs already, its messages do not come"));
   EXPECT_THAT(ended.err, ContainsRegex("host 'desk': its clock was [0-9.]+ ms (behind|before) this "
                                        "one \\(round trip [0-9.]+ ms\\), and follows it"));
   // Its monotonic clock is 5000 s ahead.
@@ -199,6 +199,43 @@ TEST_F(Hosts, WhoseAgentIsKilledStopTheRun) {
   EXPECT_EQ(ended.exit_code, 1);
   EXPECT_THAT(ended.err, HasSubstr("host 'desk' fell silent for 1 s"));
   EXPECT_TRUE(ends_within(aside, kTimeout));
+}
+
+TEST_F(Hosts, WhoseClockDriftsFasterThanItCanBeFollowedEndTheRunAsAFault) {
+  std::vector<std::string> drifting{"/usr/bin/env", "LD_PRELOAD=" DRIFTING_CLOCK,
+                                    "DRIFT_PPM=15000"};
+  const auto words = deployment_command(
+      {.files = {source_file(kPulse)}, .settings = pulse("1000"), .domain = domain_});
+  drifting.insert(drifting.end(), words.begin(), words.end());
+  drifting.insert(drifting.end(), {"--host", "desk"});
+  const auto main = start_main(pulse("1000"));
+  Command desk{desk_.command(drifting),
+               {.environment = {{"ARMATURE_PLUGIN_PATH", TEST_PLUGINS}}, .input = {}}};
+  const auto ended = main->finish(kTimeout), desk_ended = desk.finish(kTimeout);
+  EXPECT_EQ(ended.exit_code, 1) << ended.err;
+  EXPECT_EQ(desk_ended.exit_code, 1) << desk_ended.err;
+  EXPECT_THAT(ended.err, ContainsRegex("host 'desk': its clock has moved [0-9.]+ ms from that of "
+                                       "the main process, faster than its processes can follow"));
+}
+
+TEST_F(Hosts, WhoseMainProcessStoodStillAreNotCalledDead) {
+  const auto main = start_main(pulse("1000")), desk = start_desk(pulse("1000"));
+  expect_started(*main, *desk);
+  main->signal(SIGSTOP);
+  std::this_thread::sleep_for(seconds{2});
+  main->signal(SIGCONT);
+  const auto ended = main->finish(kTimeout), desk_ended = desk->finish(kTimeout);
+  EXPECT_EQ(ended.exit_code, 1);
+  EXPECT_THAT(ended.err, ContainsRegex("was lost: this process stood still for [0-9.]+ s"));
+  EXPECT_THAT(ended.err, Not(HasSubstr("it is dead")));
+}
+
+TEST_F(Hosts, GoByOneClockAndSoTheirProcessesAreNotStartedByHand) {
+  for (const auto& [process, host] : {std::pair{"aside", "desk"}, std::pair{"main", "main"}}) {
+    const auto alone = start(desk_, kPulse, pulse("1"), {"--process", process})->finish(kTimeout);
+    EXPECT_EQ(alone.exit_code, 3) << alone.err;
+    EXPECT_THAT(alone.err, HasSubstr(std::string{"process '"} + process + "' is on host '" + host));
+  }
 }
 
 TEST_F(Hosts, AreToldOfAnotherMachineThatAnswersUnderTheSameName) {

@@ -33,6 +33,17 @@ const PortBinding& measured_of(const ComponentConfig& driver) {
                   driver.name, driver.manifest->id, kMeasured));
 }
 
+void check_hosts(const DeploymentConfig& deployment) {
+  std::string settings;
+  for (const ComponentConfig& component : deployment.components) {
+    if (component.host == kMainHost || component.unit != kMainUnit) continue;
+    settings += fmt::format(" --set components.{}.host={}", component.name, kMainHost);
+  }
+  if (settings.empty()) return;
+  throw InvalidChoice("the deployment has other hosts, and a drill runs on one machine:" +
+                      settings);
+}
+
 void check_simulated(const DeploymentConfig& deployment) {
   bool any = false;
   for (const ComponentConfig& component : deployment.components) {
@@ -161,6 +172,7 @@ std::string_view to_string(Form form) { return form == Form::single ? "single" :
 
 DrilledDeployment read_drilled(const DeploymentSource& source, const PluginRegistry& plugins) {
   const DeploymentConfig deployment = read_named(source, plugins);
+  check_hosts(deployment);
   check_simulated(deployment);
   DrilledDeployment drilled{.name = deployment.name,
                             .stop_within_s = deployment.stop_within_s,

@@ -36,8 +36,9 @@ constexpr std::chrono::seconds kClockAnswersWithin{5};
 constexpr std::chrono::milliseconds kAskFirst{20}, kAskEvery{200}, kFollowEvery{1000};
 /// The main process' clock is known to half of the round trip of a question.
 constexpr Duration kMaxRoundTrip = seconds(0.02);
-/// Two clocks that go on drift apart by microseconds in a second; by more, one of them is broken.
-constexpr Duration kMaxClockJump = seconds(0.01);
+/// Two clocks that go on drift apart by microseconds in a second, which the processes follow; where
+/// they come to be so far behind, one of the clocks is broken.
+constexpr Duration kMaxClockLag = seconds(0.01);
 
 std::string random_id() {
   std::random_device random;
@@ -165,6 +166,7 @@ class HostAgent {
 
   void start_processes() {
     origin_.clock_offset = main_offset();
+    followed_.emplace(origin_.clock_offset);
     for (const std::string& name : deployment_.processes()) {
       if (deployment_.host_of(name) != options_.host) continue;
       processes_.push_back(
@@ -207,12 +209,18 @@ class HostAgent {
     const auto known = link_.clock_ahead();
     if (now < next_follow_ || !known || known->round_trip > kMaxRoundTrip) return;
     next_follow_ = now + kFollowEvery;
-    const Duration jump = known->offset - std::exchange(ahead_, known->offset);
-    if (std::chrono::abs(jump) > kMaxClockJump && !std::exchange(told_stop_, true)) {
-      say(
-          fmt::format("stop its clock and that of the main process have moved apart by {:.1f} ms "
-                      "since they were measured last",
-                      to_seconds(jump) * 1e3));
+    ahead_ = known->offset;
+    const Duration apart = std::chrono::abs(main_offset() - followed_->unix_minus_monotonic());
+    followed_->follow(main_offset());
+    // What is measured may be wrong by half of the round trip.
+    if (apart > kMaxClockLag + known->round_trip / 2 && !std::exchange(told_stop_, true)) {
+      const std::string why = fmt::format(
+          "its clock has moved {:.1f} ms from that of the main process, faster than its processes "
+          "can follow",
+          to_seconds(apart) * 1e3);
+      well_ = false;
+      say("fault " + why);
+      say("stop " + why);
     }
     const std::string line = fmt::format("clock {}", main_offset().count());
     for (Process& process : processes_) process.started.control.send(line);
@@ -271,7 +279,8 @@ class HostAgent {
   PluginPtr<Transport> transport_;
   HostLink link_;
   RunOptions::Origin origin_{};
-  Duration ahead_{0};  // the main process' clock, of ours
+  Duration ahead_{0};                    // the main process' clock, of ours
+  std::optional<SystemClock> followed_;  // by which the processes go
   std::deque<Process> processes_;
   SteadyClock::time_point next_question_{}, next_follow_{};
   bool told_end_ = false, told_stop_ = false, well_ = true;

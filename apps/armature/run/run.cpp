@@ -383,6 +383,14 @@ int run(RunOptions options) {
                   .folder = std::filesystem::current_path(no_folder)};
   check_name(config, "process", process.name, config.processes());
   check_name(config, "host", options.host, config.hosts());
+  if (is_child && options.control < 0 && config.hosts().size() > 1) {
+    const std::string host = config.host_of(process.name);
+    throw InvalidChoice(fmt::format(
+        "process '{}' is on host '{}', and hosts go by one clock, which no process can measure for "
+        "itself: run the file there with {}",
+        process.name, host,
+        host == kMainHost ? "no --process" : fmt::format("--host {} and no --process", host)));
+  }
   if (options.host != kMainHost) {
     const int code = run_host(options, config, process.domain, plugins);
     if (options.json) print_out("{}", ending(code == kOk ? "ok" : "fault", ""));

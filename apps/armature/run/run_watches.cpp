@@ -89,8 +89,9 @@ bool MainWatch::may_start(const std::optional<std::string>& waiting) {
   if (const auto host = children_->missing_host()) {
     if (told_missing_ != *host) {
       tell_step(
-          fmt::format("waiting for host '{}': run the same file there with "
-                      "--host {}",
+          fmt::format("waiting for host '{}': run the same file there with --host {}; if it runs "
+                      "already, its messages do not come (a firewall, or not the same MTU all the "
+                      "way)",
                       *host, *host));
     }
     told_missing_ = *host;

@@ -136,7 +136,10 @@ TopLine summary_of(const std::string& name, const SeenDeployment& deployment,
                    const std::vector<Row>& rows) {
   const auto well =
       std::ranges::count_if(rows, [](const Row& row) { return !row.tone.has_value(); });
-  std::string text = fmt::format("{}: {} of {} components ok", name, well, rows.size());
+  std::size_t described = 0;
+  for (const auto& [process, told] : deployment.processes) described += told.components_().size();
+  const std::size_t all = std::max(described, rows.size());
+  std::string text = fmt::format("{}: {} of {} components ok", name, well, all);
   if (deployment.processes.empty()) return {text, std::nullopt};
   const msg::DeploymentDescription& told = deployment.processes.begin()->second;
   text += fmt::format(", {} of {} processes, {} clock, fingerprint {}", deployment.processes.size(),
@@ -147,7 +150,10 @@ TopLine summary_of(const std::string& name, const SeenDeployment& deployment,
     const bool is_new = std::ranges::find(missing, row.process) == missing.end();
     if (row.is_silent && is_new) missing.push_back(row.process);
   }
-  if (missing.empty()) return {text, std::nullopt};
+  if (all > rows.size()) text += fmt::format("; {} have told nothing yet", all - rows.size());
+  if (missing.empty()) {
+    return {text, all > rows.size() ? std::optional{Tone::doubtful} : std::nullopt};
+  }
   return {text + fmt::format("; nothing is heard of process '{}'", fmt::join(missing, "', '")),
           Tone::bad};
 }

@@ -94,9 +94,18 @@ TEST_F(TopTableTest, NamesTheProcessOfWhichNothingIsHeard) {
   EXPECT_EQ(summary.tone, Tone::bad);
 }
 
+TEST_F(TopTableTest, CountsComponentsThatAreDescribedAndHaveToldNothing) {
+  seen_["lamp"].processes["main"].components_().resize(5);
+  const TopLine summary = top_table(seen_, {}, kNow).lines[0];
+  EXPECT_THAT(summary.text, HasSubstr("2 of 5 components ok"));
+  EXPECT_THAT(summary.text, HasSubstr("3 have told nothing yet"));
+  EXPECT_EQ(summary.tone, Tone::doubtful);
+}
+
 TEST_F(TopTableTest, NamesAProcessThatDiesWhileItIsWatched) {
   seen_["lamp"].processes["main"].processes_({"main", "vision"});
   seen_["lamp"].processes["vision"] = seen_["lamp"].processes["main"];
+  seen_["lamp"].processes["vision"].components_().resize(1);
   SeenComponent& component = seen_["lamp"].components[{"vision", "face"}];
   component.heard = kNow;
   EXPECT_FALSE(top_table(seen_, {}, kNow).lines[0].tone);

@@ -280,7 +280,10 @@ void check_hosts(const DeploymentConfig& deployment, Problems& problems) {
                              component.name, component.host, component.process, host,
                              is_main ? ", as always" : ""));
   }
-  if (apart && deployment.dds.interfaces.empty()) {
+  const auto leads_out = [](const DdsConfig::Named& interface) {
+    return interface.name != "lo" && !interface.name.starts_with("127.");
+  };
+  if (apart && std::ranges::none_of(deployment.dds.interfaces, leads_out)) {
     problems.add(apart->origin,
                  fmt::format("component '{}' is on another host, and no network leads there: name "
                              "the interfaces to join, dds: {{interfaces: [eth0]}}",

@@ -84,6 +84,10 @@ void ChildProcesses::welcome(Child& agent, const std::string& fingerprint) {
 }
 
 void ChildProcesses::update() {
+  const auto now = SteadyClock::now();
+  const Duration still = now - std::exchange(updated_, now).value_or(now);
+  // What is lost later than that is lost for another reason.
+  stood_still_ = still > HostLink::kSilence ? still : std::max(stood_still_ - still, Duration{0});
   for (const auto& host : hosts_) {
     host->update();
     if (host->is_doubled() && doubled_.insert(host->host()).second) {
@@ -128,8 +132,13 @@ void ChildProcesses::hear(Child& child) {
 
 void ChildProcesses::watch(Child& child) {
   if (child.host && !child.ended && child.control->lost()) {
-    on_ended(child, fmt::format("fell silent for {:g} s: it is dead, or the network between is",
-                                to_seconds(HostLink::kSilence)));
+    on_ended(child,
+             stood_still_ > HostLink::kSilence
+                 ? fmt::format("was lost: this process stood still for {:.1f} s, and is taken for "
+                               "dead there after {:g} s",
+                               to_seconds(stood_still_), to_seconds(HostLink::kSilence))
+                 : fmt::format("fell silent for {:g} s: it is dead, or the network between is",
+                               to_seconds(HostLink::kSilence)));
   }
   int status = 0;
   pid_t changed = 0;

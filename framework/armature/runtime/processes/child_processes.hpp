@@ -133,6 +133,8 @@ class ChildProcesses {
   std::vector<std::unique_ptr<HostLink>> hosts_;
   std::deque<Child> children_;  // those of a host go before it
   bool begun_ = false, scenario_over_ = false;
+  std::optional<SteadyClock::time_point> updated_;
+  Duration stood_still_{0};        // between two updates, when that was too long for other hosts
   std::deque<std::string> notes_;  // not told yet
   std::set<std::string> doubled_;  // hosts, as which several answer; told
   std::deque<Time> troubles_;      // the same

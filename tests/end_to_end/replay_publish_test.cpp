@@ -84,7 +84,8 @@ TEST_F(Replay, OfARecordingOfAnotherProgramAllIsPublishedWhoseTypeIsKnownAndTheR
   EXPECT_THAT(played.out, HasSubstr("3 messages of 1 topics under /replay"));
   EXPECT_THAT(played.err, HasSubstr("'/value' has messages of two types: those of "));
   EXPECT_THAT(played.err, HasSubstr("1 messages of '/value' are not what their type says"));
-  EXPECT_THAT(played.err, HasSubstr("is of the type 'foo/msg/Bar', which is not known here"));
+  EXPECT_THAT(played.err, HasSubstr("is of the type 'foo/msg/Bar', which is not known here, and is "
+                                    "not published; --monitor shows it. The folder of a library"));
   EXPECT_THAT(played.err, testing::Not(HasSubstr("\x1b"))) << "nothing that a terminal obeys";
   EXPECT_THAT(played.err, HasSubstr("the next message comes in 3600 s"));
 }

@@ -78,8 +78,8 @@ Contents contents_of(const McapSummary& summary) {
   return contents;
 }
 
-/// Reads all messages. `processes`: those of the recording.
-Contents contents_of(McapReader& reader, const std::vector<std::string>& processes) {
+/// Reads all messages.
+Contents contents_of(McapReader& reader, const RecordedCopies& copies) {
   struct Times {
     Time first, last;
     void add(Time time, bool is_first) {
@@ -95,7 +95,7 @@ Contents contents_of(McapReader& reader, const std::vector<std::string>& process
     const std::pair key{message->channel->topic, type_of(*message->channel, reader.schemas())};
     TopicCount& topic = contents.topics[key];
     arrived.add(message->log_time, std::exchange(is_first, false));
-    if (is_doubled(*message->channel, processes)) {
+    if (copies.has(*message)) {
       ++topic.doubled;
       continue;
     }
@@ -133,6 +133,7 @@ Json json_of(const Contents& contents, const std::vector<std::string>& problems)
             {"whole", contents.is_all_read ? Json(problems.empty()) : Json{}},
             {"problems", problems},
             {"repaired", repairs_told_by(contents.metadata)},
+            {"lost", losses_told_by(contents.metadata)},
             {"length_s", to_seconds(contents.length)},
             {"chunks", contents.chunks},
             {"packed_bytes", contents.packed_bytes},
@@ -184,8 +185,8 @@ void print(const Contents& contents) {
     }
     print_out("\n");
   }
-  for (const std::string& repair : repairs_told_by(contents.metadata)) {
-    print_out("  incomplete: {}\n", terminal_text(repair));
+  for (const auto& told : {repairs_told_by(contents.metadata), losses_told_by(contents.metadata)}) {
+    for (const std::string& text : told) print_out("  incomplete: {}\n", terminal_text(text));
   }
   if (contents.links > 0) {
     print_out("  {} links, the last is {}: --verify holds the file to them\n", contents.links,
@@ -276,7 +277,8 @@ std::string_view word_of(McapChain::Verdict verdict) {
 }
 
 int describe_recording(const InfoOptions& options) {
-  if (!options.verify) {
+  const RecordedCopies copies{options.file};
+  if (!options.verify && copies.are_whole_channels()) {
     if (const auto summary = read_summary(options.file)) {
       const Contents contents = contents_of(*summary);
       if (options.json) {
@@ -288,7 +290,7 @@ int describe_recording(const InfoOptions& options) {
     }
   }
   McapReader reader{options.file, options.verify};
-  const Contents contents = contents_of(reader, recorded_processes(options.file));
+  const Contents contents = contents_of(reader, copies);
   const bool is_unreadable = !reader.problems().empty() && is_nothing(contents);
   const McapChain chain = reader.chain();
   const bool is_head = options.head.empty() || options.head == chain.head;

@@ -14,6 +14,7 @@
 
 #include "armature/bus/topic_name.hpp"
 #include "armature/config/problems.hpp"
+#include "armature/messages/known_types.hpp"
 #include "armature/recording/file_lock.hpp"
 #include "armature/runtime/deployment_file/record_config.hpp"
 #include "armature/values/json_text.hpp"
@@ -68,7 +69,9 @@ class Topics {
       const auto watching = outsider_.dds().watch(
           topic.name, Duration{0},
           [this, name](const ObservedSample& sample) { recorder_.add(name, sample); });
-      if (watching) watched_.insert(name);
+      if (!watching) continue;
+      watched_.insert(name);
+      if (!topic.types.empty()) tell_undescribed(name, topic.types.front());
     }
   }
   std::size_t count() const { return watched_.size(); }
@@ -83,6 +86,16 @@ class Topics {
   }
 
  private:
+  /// Once for each type.
+  void tell_undescribed(const std::string& name, const std::string& type) {
+    if (describe_type(type) || !told_undescribed_.insert(type).second) return;
+    fmt::print(stderr,
+               "armature: {} is recorded without the definition of its type {}, so nobody can read "
+               "it from the file: the folder of the library that has the type belongs into "
+               "ARMATURE_PLUGIN_PATH\n",
+               config::in_quotes(name), type);
+  }
+
   /// Once for each topic.
   void tell_unheard(const std::string& name, std::ptrdiff_t writers) {
     if (writers == 0 || !told_unheard_.insert(name).second) return;
@@ -95,7 +108,7 @@ class Topics {
 
   const RecordOptions& options_;
   Recorder& recorder_;
-  std::set<std::string> watched_, told_unheard_;
+  std::set<std::string> watched_, told_unheard_, told_undescribed_;
   Outsider outsider_;  // goes before what its callbacks use
 };
 

@@ -43,4 +43,23 @@ std::vector<std::string> repairs_told_by(const std::vector<McapMetadata>& metada
   return told;
 }
 
+std::vector<std::string> losses_told_by(const std::vector<McapMetadata>& metadata) {
+  constexpr std::string_view kLost = "lost of ", kStrays = "strays of ";
+  std::vector<std::string> told;
+  for (const McapMetadata& one : metadata) {
+    if (one.name != kEndMetadata) continue;
+    for (const auto& [key, count] : one.values) {
+      if (key.starts_with(kLost)) {
+        told.push_back(fmt::format("{} calls of {} were not recorded, with all that they published",
+                                   count, config::in_quotes(key.substr(kLost.size()))));
+      }
+      if (key.starts_with(kStrays)) {
+        told.push_back(fmt::format("{} messages of threads of {} were not recorded", count,
+                                   config::in_quotes(key.substr(kStrays.size()))));
+      }
+    }
+  }
+  return told;
+}
+
 }  // namespace armature

@@ -16,4 +16,8 @@ namespace armature {
 std::vector<std::string> repairs_told_by(const std::vector<McapMetadata>& metadata,
                                          std::string_view process = {});
 
+/// One text for each component of which a run has not recorded everything, as it says itself;
+/// empty: of none.
+std::vector<std::string> losses_told_by(const std::vector<McapMetadata>& metadata);
+
 }  // namespace armature

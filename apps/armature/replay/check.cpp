@@ -2,25 +2,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <optional>
 #include <set>
 
 #include "armature/config/problems.hpp"
-#include "armature/messages/known_types.hpp"
-#include "armature/messages/stamp.hpp"
 #include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/plugins/running_component.hpp"
 #include "armature/values/json_text.hpp"
 #include "armature/values/monotonic_now.hpp"
 #include "exit_code.hpp"
 #include "replay/exchanged_samples.hpp"
-#include "replay/message_difference.hpp"
 #include "replay/recorded_run.hpp"
 #include "replay/recorded_text.hpp"
+#include "replay/repetition.hpp"
 #include "replay/replay.hpp"
 #include "replay/replayed_process.hpp"
 #include "standard_output.hpp"
@@ -32,37 +28,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Where a component did something else than in the recording.
-struct Difference {
-  std::uint64_t activation = 0;  // counts from 1
-  std::string call;
-  double at_s = 0;  // since the recording began
-  std::string topic;
-  std::string text;  // "position[2]: recorded 1, replayed 2, 4503599627370496 ULP apart"
-  std::optional<MessageDifference> field;
-};
-
-/// The result of comparing all calls of a component.
-struct Compared {
-  std::uint64_t outputs = 0, unrecorded = 0;
-  std::optional<Difference> difference;
-};
-
-std::string_view call_name(std::uint8_t call) {
-  constexpr std::array<std::string_view, 3> kNames{"step", "begin_stop", "stop"};
-  return call < kNames.size() ? kNames[call] : "?";
-}
-
-std::string with_commas(std::uint64_t number) {
-  const std::string digits = std::to_string(number);
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
-    text += digits[i];
-  }
-  return text;
-}
-
 /// All components of one process.
 class Check {
  public:
@@ -70,16 +35,14 @@ class Check {
         PluginRegistry& plugins)
       : run_{file, process}, process_{run_, plugins, options.assignments} {
     if (!options.allow_ulp) check_processor(run_);
+    run_.count_from_begin_of(options.files);
     for (const auto& [name, entry] : process_.entries()) compared_[name];
   }
 
   void run() {
-    std::optional<Time> start;
     while (const auto call = run_.next()) {
-      const Time now = stamp_of(call->now_());
-      if (!start) start = now;
-      length_ = std::max(length_, now - *start);
-      repeat(*call, to_seconds(now - *start));
+      length_s_ = std::max(length_s_, run_.seconds_of(*call));
+      repeat(*call, run_.seconds_of(*call));
     }
     for (const auto& [name, end] : run_.unrecorded_ends()) {
       const auto found = process_.entries().find(name);
@@ -90,96 +53,33 @@ class Check {
   /// Whether all that can be repeated was repeated, and compared.
   bool is_complete() const {
     return problems().empty() && std::ranges::all_of(entries(), [&](const auto& entry) {
-             return !entry.second.ends && of(entry.first).unrecorded == 0;
+             return !entry.second.ends && of(entry.first).unrecorded() == 0;
            });
   }
 
   const std::map<std::string, ReplayedProcess::Entry>& entries() const {
     return process_.entries();
   }
-  const Compared& of(const std::string& component) const { return compared_.at(component); }
+  const Repetition& of(const std::string& component) const { return compared_.at(component); }
   const std::vector<std::string>& notes() const { return process_.notes(); }
   std::vector<std::string> problems() const { return run_.problems(); }
   const std::string& run_id() const { return run_.run(); }
   const std::filesystem::path& file() const { return run_.file(); }
   const std::string& process() const { return run_.process(); }
-  double length_s() const { return to_seconds(length_); }
+  double length_s() const { return length_s_; }
   const DeploymentConfig& config() const { return process_.config(); }
 
  private:
   void repeat(const msg::Activation& call, double at_s) {
-    ReplayedProcess::Entry* entry = process_.repeat(call, at_s);
+    const ReplayedProcess::Entry* entry = process_.repeat(call, at_s);
     if (!entry) return;
-    Compared& compared = compared_[call.component_()];
-    compare(call, at_s, *entry, compared);
-    const std::string failure = entry->component->failure().value_or("");
-    if (failure == call.failure_() || compared.difference) return;
-    const auto told = [](const std::string& text) {
-      return text.empty() ? std::string{"it does not fail"} : config::in_quotes(text);
-    };
-    compared.difference =
-        difference(call, at_s, entry->activations, "",
-                   fmt::format("recorded {}, replayed {}", told(call.failure_()), told(failure)));
-  }
-
-  void compare(const msg::Activation& call, double at_s, const ReplayedProcess::Entry& entry,
-               Compared& compared) {
-    const auto note = [&](const std::string& topic, std::string text) {
-      if (compared.difference) return;
-      compared.difference = difference(call, at_s, entry.activations, topic, std::move(text));
-    };
-    const auto& published = entry.component->published();
-    const std::size_t common = std::min(published.size(), call.written_().size());
-    for (std::size_t i = 0; i < common; ++i) {
-      const msg::SampleWritten& written = call.written_()[i];
-      if (published[i].writer != written.writer_()) {
-        return note(published[i].topic, "published where it had not");
-      }
-      const auto recorded = run_.sample(written.writer_(), written.sequence_());
-      if (!recorded) {
-        ++compared.unrecorded;
-      } else if (std::ranges::equal(*recorded, published[i].cdr)) {
-        ++compared.outputs;
-      } else if (!compared.difference) {
-        const auto field = field_difference(published[i], *recorded);
-        note(published[i].topic, text_of(field));
-        compared.difference->field = field;
-      }
-    }
-    if (published.size() == call.written_().size()) return;
-    note(
-        published.size() > common ? published[common].topic : "",
-        fmt::format("recorded {} messages, replayed {}", call.written_().size(), published.size()));
-  }
-
-  static std::optional<MessageDifference> field_difference(const ReplayedMessage& message,
-                                                           std::span<const std::byte> recorded) {
-    const TypeDescription* type = describe_type(message.type->dds_name);
-    return type ? first_difference(*type, recorded, message.cdr) : std::nullopt;
-  }
-
-  static std::string text_of(const std::optional<MessageDifference>& field) {
-    if (!field) return "other bytes of equal values";
-    std::string text =
-        fmt::format("{}: recorded {}, replayed {}", field->field, field->recorded, field->replayed);
-    if (field->ulps) text += fmt::format(", {} ULP apart", with_commas(*field->ulps));
-    return text;
-  }
-
-  static Difference difference(const msg::Activation& call, double at_s, std::uint64_t activation,
-                               const std::string& topic, std::string text) {
-    return {.activation = activation,
-            .call = std::string{call_name(call.call_())},
-            .at_s = at_s,
-            .topic = topic,
-            .text = std::move(text),
-            .field = {}};
+    compared_[call.component_()].hold(call, at_s, entry->activations, *entry->component, run_);
   }
 
   RecordedRun run_;
   ReplayedProcess process_;
-  std::map<std::string, Compared> compared_;
-  Duration length_{0};
+  std::map<std::string, Repetition> compared_;
+  double length_s_ = 0;
 };
 
 struct Totals {
@@ -206,8 +106,8 @@ Totals totals_of(const std::vector<std::unique_ptr<Check>>& checks,
     for (const auto& [name, entry] : check->entries()) {
       totals.components += entry.component ? 1 : 0;
       totals.activations += entry.activations;
-      totals.outputs += check->of(name).outputs;
-      totals.differing += check->of(name).difference ? 1 : 0;
+      totals.outputs += check->of(name).outputs();
+      totals.differing += check->of(name).otherwise() ? 1 : 0;
     }
   }
   totals.is_complete = totals.is_complete && totals.activations > 0;
@@ -219,7 +119,7 @@ std::string_view verdict_of(const Totals& totals) {
   return totals.is_complete ? "identical" : "incomplete, identical as far as it was compared";
 }
 
-std::string text_of(const std::string& component, const Difference& difference) {
+std::string text_of(const std::string& component, const Repetition::Otherwise& difference) {
   return fmt::format("'{}' differs first at {:.6f} s, in its activation {} ({}){}{}: {}", component,
                      difference.at_s, with_commas(difference.activation), difference.call,
                      difference.topic.empty() ? "" : ", ", difference.topic, difference.text);
@@ -231,13 +131,13 @@ Json json_of(const Check& check, const std::string& name, const ReplayedProcess:
     json["not_replayed"] = entry.why_not;
     return json;
   }
-  const Compared& compared = check.of(name);
+  const Repetition& compared = check.of(name);
   json["activations"] = entry.activations;
-  json["outputs"] = compared.outputs;
-  if (compared.unrecorded > 0) json["not_recorded"] = compared.unrecorded;
+  json["outputs"] = compared.outputs();
+  if (compared.unrecorded() > 0) json["not_recorded"] = compared.unrecorded();
   if (entry.ends) json["ends"] = *entry.ends;
-  if (!compared.difference) return json;
-  const Difference& difference = *compared.difference;
+  if (!compared.otherwise()) return json;
+  const Repetition::Otherwise& difference = *compared.otherwise();
   json["difference"] = {{"activation", difference.activation},
                         {"call", difference.call},
                         {"at_s", difference.at_s},
@@ -299,7 +199,7 @@ void print(const ExchangedSamples& exchanged) {
 void print(const std::vector<std::unique_ptr<Check>>& checks, const Totals& totals, double took_s) {
   for (const auto& check : checks) {
     for (const auto& [name, entry] : check->entries()) {
-      const auto& difference = check->of(name).difference;
+      const auto& difference = check->of(name).otherwise();
       if (difference) print_recorded("{}\n", text_of(name, *difference));
     }
   }
@@ -315,7 +215,7 @@ void print(const std::vector<std::unique_ptr<Check>>& checks, const Totals& tota
         print_recorded("replayed up to its activation {}: '{}', {}\n",
                        with_commas(entry.activations), name, *entry.ends);
       }
-      if (const auto unrecorded = check->of(name).unrecorded; unrecorded > 0) {
+      if (const auto unrecorded = check->of(name).unrecorded(); unrecorded > 0) {
         print_recorded("not compared: {} outputs of '{}', which are not in the recording\n",
                        with_commas(unrecorded), name);
       }

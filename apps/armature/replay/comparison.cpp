@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "armature/messages/stamp.hpp"
 #include "replay/changed_components.hpp"
 
 namespace armature {
@@ -70,15 +69,11 @@ Comparison::Comparison(const std::filesystem::path& file, const std::string& pro
       before_{run_, plugins, {}, or_none(changed_)},
       now_{run_, plugins, options.assignments, or_none(changed_)} {
   if (!options.allow_ulp && !changed_.empty()) check_processor(run_);
+  run_.count_from_begin_of(options.files);
 }
 
 void Comparison::run() {
-  std::optional<Time> start;
-  while (const auto call = run_.next()) {
-    const Time now = stamp_of(call->now_());
-    if (!start) start = now;
-    repeat(*call, to_seconds(now - *start));
-  }
+  while (const auto call = run_.next()) repeat(*call, run_.seconds_of(*call));
   for (const auto& [name, end] : run_.unrecorded_ends()) {
     const auto found = now_.process.entries().find(name);
     if (found != now_.process.entries().end() && !found->second.ends) found->second.ends = end;
@@ -112,7 +107,8 @@ void Comparison::repeat(const msg::Activation& call, double at_s) {
   ReplayedProcess::Entry* second = (now_first_ ? before_ : now_).process.repeat(call, at_s);
   const ReplayedProcess::Entry* before = now_first_ ? second : first;
   const ReplayedProcess::Entry* now = now_first_ ? first : second;
-  if (before) repetitions_[call.component_()].hold(call, at_s, *before->component, run_);
+  if (before)
+    repetitions_[call.component_()].hold(call, at_s, before->activations, *before->component, run_);
   if (!before || !now) return;
   ComparedComponent& compared = components_[call.component_()];
   compare_messages(before->component->published(), now->component->published(), at_s, compared);

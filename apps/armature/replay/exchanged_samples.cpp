@@ -64,6 +64,25 @@ struct Copies {
 /// By topic and channel.
 using Writers = std::map<std::string, std::map<std::uint16_t, Written>>;
 
+/// Whether the only writer of a topic has written the copy behind `last`, which is then its place.
+bool is_next(const Written& written, const Copy& copy, bool is_numbered, std::uint64_t& last) {
+  const auto place = is_numbered ? written.find_number(copy.sequence, copy.hash, last)
+                                 : written.find(copy.hash, last);
+  if (place) last = *place;
+  return place.has_value();
+}
+
+/// How often several writers together have written that content. Which of them a copy is from is
+/// not told, so their order cannot be held to anything.
+std::uint64_t times_written(const std::map<std::uint16_t, Written>& writers, std::size_t hash) {
+  std::uint64_t times = 0;
+  for (const auto& [channel, written] : writers) {
+    const auto places = written.places.find(hash);
+    if (places != written.places.end()) times += places->second.size();
+  }
+  return times;
+}
+
 /// Whether it has what the process itself has published. It numbers writers elsewhere, also those
 /// of other programs, from 2^31 on (RemoteTopics).
 bool is_original(const McapChannel& channel) {
@@ -111,17 +130,13 @@ ExchangedSamples compare_exchanged(const std::filesystem::path& file) {
     // shown first.
     std::ranges::stable_sort(copies.read, {}, &Copy::sequence);
     const bool is_numbered = copies.channel.metadata.contains(kNumberedKey);
-    std::map<std::uint16_t, std::uint64_t> last;  // by writer
+    const auto& candidates = writers.at(copies.channel.topic);
+    std::uint64_t last = 0;                     // of the only writer
+    std::map<std::size_t, std::uint64_t> read;  // of several: how often each content
     for (const Copy& copy : copies.read) {
-      const auto& candidates = writers.at(copies.channel.topic);
-      const bool is_written = std::ranges::any_of(candidates, [&](const auto& candidate) {
-        std::uint64_t& after = last[candidate.first];
-        const auto place = is_numbered
-                               ? candidate.second.find_number(copy.sequence, copy.hash, after)
-                               : candidate.second.find(copy.hash, after);
-        if (place) after = *place;
-        return place.has_value();
-      });
+      const bool is_written = candidates.size() > 1
+                                  ? ++read[copy.hash] <= times_written(candidates, copy.hash)
+                                  : is_next(candidates.begin()->second, copy, is_numbered, last);
       ++(is_written ? exchanged.compared : exchanged.unwritten);
       if (is_written && is_numbered) ++exchanged.numbered;
       if (is_written || (first && *first <= copy.at)) continue;

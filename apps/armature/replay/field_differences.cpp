@@ -30,15 +30,20 @@ void TopicDifferences::compare(const MessageType& type, std::span<const std::byt
   differing_ += differs ? 1 : 0;
   const TypeDescription* description = describe_type(type.dds_name);
   if (!description) return;
-  const OctetArrays octets = differs ? OctetArrays::whole : OctetArrays::shortened;
-  const auto first = cdr_to_json(*description, before, octets);
-  const auto second = cdr_to_json(*description, now, octets);
+  const auto first = cdr_to_json(*description, before), second = cdr_to_json(*description, now);
   if (!first || !second) return;
   follow_joints(*first, 0);
   follow_joints(*second, 1);
   if (!differs) return;
   in_message_.clear();
   walk(*first, *second, {}, at_s);
+  // A picture has a million octets, of which mostly one of the first differs already.
+  if (in_message_.empty()) {
+    const auto whole = [&](std::span<const std::byte> cdr) {
+      return cdr_to_json(*description, cdr, OctetArrays::whole).value();
+    };
+    walk(whole(before), whole(now), {}, at_s);
+  }
   for (const auto& [name, is_in] : in_message_) ++fields_[name].messages;
 }
 
@@ -55,8 +60,12 @@ void TopicDifferences::add_only_now(const MessageType& type, std::span<const std
 void TopicDifferences::walk(const Json& before, const Json& now, const Place& place, double at_s) {
   if (before.is_object() && now.is_object()) {
     const std::string dot = place.name.empty() ? "" : ".";
+    static const Json kNone;
+    const bool is_shortened = before.contains("octets") && before.contains("first");
     for (const auto& [key, value] : before.items()) {
-      walk(value, now.value(key, Json{}), {place.name + dot + key, place.element + dot + key},
+      const auto other = now.find(key);
+      const std::string name = is_shortened && key == "first" ? "" : dot + key;
+      walk(value, other == now.end() ? kNone : *other, {place.name + name, place.element + name},
            at_s);
     }
   } else if (before.is_array() && now.is_array()) {

@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "armature/bus/topic_name.hpp"
@@ -21,6 +22,7 @@
 #include "armature/recording/mcap_summary.hpp"
 #include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/execution/clock.hpp"
+#include "armature/runtime/plugins/described_messages.hpp"
 #include "armature/runtime/plugins/plugin_registry.hpp"
 #include "armature/values/json_text.hpp"
 #include "armature/values/monotonic_now.hpp"
@@ -69,8 +71,7 @@ const MessageType* type_of(const McapChannel& channel, std::string schema) {
 
 class Player {
  public:
-  explicit Player(const PublishOptions& options)
-      : options_{options}, processes_{recorded_processes(options.file)} {
+  explicit Player(const PublishOptions& options) : options_{options}, copies_{options.file} {
     auto transport = plugins_.make<Transport>(
         "transport/fast_dds", TransportOptions{.network = options.network,
                                                .deployment = "a recording",
@@ -88,7 +89,7 @@ class Player {
     const Time start = monotonic_now();
     while (const auto message = reader.next()) {
       if (!first) first = message->log_time;
-      if (is_doubled(*message->channel, processes_)) continue;
+      if (copies_.has(*message)) continue;
       Topic* topic = topic_of(*message->channel, reader);
       if (!topic) continue;
       const double at_s = to_seconds(message->log_time - *first) - options_.from_s;
@@ -136,9 +137,17 @@ class Player {
     const std::string said = schema == reader.schemas().end() ? "" : schema->second.name;
     const MessageType* type = type_of(channel, said);
     if (!type) {
+      const std::string name = said.substr(said.rfind('/') + 1);
+      for (std::string& problem : load_messages(plugins_, name)) {
+        left_out_.insert(std::move(problem));
+      }
+      type = type_of(channel, said);
+    }
+    if (!type) {
       left_out_.insert(
           fmt::format("{} is of the type {}, which is not known here, and is not "
-                      "published; --monitor shows it",
+                      "published; --monitor shows it. The folder of a library that has the type "
+                      "belongs into ARMATURE_PLUGIN_PATH",
                       config::in_quotes(channel.topic), config::in_quotes(said)));
       return nullptr;
     }
@@ -193,7 +202,7 @@ class Player {
   }
 
   const PublishOptions& options_;
-  const std::vector<std::string> processes_;
+  const RecordedCopies copies_;
   const Time begin_ = monotonic_now();
   SystemClock clock_;
   PluginRegistry plugins_;
@@ -234,6 +243,7 @@ int publish_recording(const PublishOptions& options) {
   if (options.json) {
     print_out("{}\n", json_text(nlohmann::ordered_json{{"messages", player.messages()},
                                                        {"topics", player.topics()},
+                                                       {"left_out", player.left_out()},
                                                        {"prefix", options.prefix}}));
   } else {
     print_out("{} messages of {} topics under {}\n", player.messages(), player.topics(),

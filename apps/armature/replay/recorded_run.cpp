@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "armature/config/document.hpp"
+#include "armature/messages/stamp.hpp"
 #include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 #include "record/repaired.hpp"
@@ -168,6 +169,21 @@ std::optional<msg::Activation> RecordedRun::next() {
   return std::nullopt;
 }
 
+void RecordedRun::count_from_begin_of(const std::vector<std::filesystem::path>& files) {
+  std::optional<Time> begin;
+  for (const std::filesystem::path& file : files) {
+    McapReader reader{file};
+    if (const auto first = reader.next()) {
+      begin = std::min(begin.value_or(first->log_time), first->log_time);
+    }
+  }
+  begin_ = begin.value_or(Time{});
+}
+
+double RecordedRun::seconds_of(const msg::Activation& call) const {
+  return std::max(to_seconds(stamp_of(call.now_()) - begin_), 0.0);
+}
+
 /// Activations are numbered without a gap, whatever component they are of.
 bool RecordedRun::is_next(std::uint32_t sequence) {
   const std::uint32_t missing = sequence - last_activation_ - 1;
@@ -229,6 +245,11 @@ std::map<std::string, std::string> RecordedRun::unrecorded_ends() const {
       if (const auto name = behind("lost of ", key)) {
         ends[*name] = fmt::format("{} of its activations were not recorded", value);
       }
+      if (const auto name = behind("strays of ", key)) {
+        std::string& end = ends[*name];
+        end += fmt::format("{}{} messages of threads of its own were not recorded",
+                           end.empty() ? "" : ", ", value);
+      }
       if (const auto name = behind("running in ", key))
         ends[*name] = "its last call did not return";
     }
@@ -251,6 +272,7 @@ void RecordedRun::keep(const McapMessage& message) {
   const std::size_t min_kept = known == min_kept_.end() ? kMinKept : known->second;
   // It may have waited for its reader until so many more had come, however long that took.
   while (samples.size() > min_kept && samples[min_kept].at < message.log_time - kept_for_) {
+    let_go_[writer->second] = samples.front().sequence;
     samples.pop_front();
   }
 }
@@ -264,6 +286,11 @@ std::optional<std::span<const std::byte>> RecordedRun::sample(std::uint32_t writ
                                   [&](const Sample& sample) { return sample.sequence == wanted; });
   if (found == samples->second.rend()) return std::nullopt;
   return found->cdr;
+}
+
+bool RecordedRun::was_let_go(std::uint32_t writer, std::uint64_t sequence) const {
+  const auto last = let_go_.find(writer);
+  return last != let_go_.end() && static_cast<std::uint32_t>(sequence) <= last->second;
 }
 
 }  // namespace armature

@@ -57,6 +57,12 @@ class RecordedRun {
   /// A sample of an activation that was returned last; nothing when it was not recorded.
   std::optional<std::span<const std::byte>> sample(std::uint32_t writer,
                                                    std::uint64_t sequence) const;
+  /// Whether such a sample was recorded, but so long before the end of the call that read it that
+  /// it is not held any more.
+  bool was_let_go(std::uint32_t writer, std::uint64_t sequence) const;
+  /// [s] when a call was, from the first message of these files on, whose ever that is.
+  void count_from_begin_of(const std::vector<std::filesystem::path>& files);
+  double seconds_of(const msg::Activation& call) const;
   /// After the last activation: what is wrong with the file. Throws std::runtime_error.
   std::vector<std::string> problems() const;
   /// After the last activation: of components whose last ones were lost, or did not return, what
@@ -86,11 +92,13 @@ class RecordedRun {
   Duration kept_for_ = seconds(5);               // samples, behind the newest message
   std::map<std::string, std::size_t> min_kept_;  // by topic
   std::uint32_t last_activation_ = 0;
+  Time begin_;
   std::vector<std::string> problems_;
   McapReader reader_;
   bool is_read_to_end_ = false;
   std::map<std::uint16_t, std::uint32_t> writers_;       // by channel
   std::map<std::uint32_t, std::deque<Sample>> samples_;  // by writer
+  std::map<std::uint32_t, std::uint32_t> let_go_;        // the last sequence, by writer
 };
 
 }  // namespace armature

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "armature/config/problems.hpp"
-#include "armature/recording/recorded_processes.hpp"
 #include "armature/values/monotonic_now.hpp"
 #include "replay/recorded_qos.hpp"
 #include "watch/outsider.hpp"
@@ -37,10 +36,7 @@ std::string type_of(const McapChannel& channel, const McapReader& reader) {
 }  // namespace
 
 RecordedTopics::RecordedTopics(const std::filesystem::path& file, const Options& options)
-    : reader_{file},
-      processes_{recorded_processes(file)},
-      loops_{options.loop},
-      speed_{options.rate} {
+    : reader_{file}, copies_{file}, loops_{options.loop}, speed_{options.rate} {
   read_all();
   add_topics();
   if (chunks_.empty()) {
@@ -81,8 +77,7 @@ std::optional<McapMessage> RecordedTopics::read() {
   std::optional<McapMessage> message;
   do {
     message = reader_.next();
-  } while (message &&
-           (is_doubled(*message->channel, processes_) || is_of_another_type(*message->channel)));
+  } while (message && (copies_.has(*message) || is_of_another_type(*message->channel)));
   return message;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "armature/recording/mcap_reader.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "armature/web/playback.hpp"
 #include "armature/web/topic_source.hpp"
 
@@ -92,7 +93,7 @@ class RecordedTopics final : public TopicSource, public Playback {
   void settle();
 
   McapReader reader_;
-  const std::vector<std::string> processes_;  // whose recordings are in the file
+  const RecordedCopies copies_;
   const bool loops_;
   std::vector<Chunk> chunks_;
   std::map<std::string, RecordedTopic> topics_;

@@ -74,6 +74,12 @@ std::optional<std::string> ReplayedComponent::repeat(const msg::Activation& call
     const Input& input = inputs_[read.input_()];
     if (!input.port) return fmt::format("it has no input '{}' any more", input.name);
     const auto cdr = run.sample(read.writer_(), read.sequence_());
+    if (!cdr && run.was_let_go(read.writer_(), read.sequence_())) {
+      return fmt::format(
+          "it read a sample of its input '{}' in a call that took so long that the sample is not "
+          "held any more",
+          input.name);
+    }
     if (!cdr) return fmt::format("a sample of its input '{}' is not in the recording", input.name);
     SampleRef sample = input.pool->loan();
     if (!input.port->type().decode(*cdr, sample.mutable_message())) {

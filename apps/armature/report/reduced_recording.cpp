@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -18,7 +19,6 @@
 #include "armature/messages/ros_definition.hpp"
 #include "armature/messages/sensor_msgs.hpp"
 #include "armature/recording/mcap_writer.hpp"
-#include "armature/recording/recorded_processes.hpp"
 #include "armature/runtime/recording/page_rate.hpp"
 #include "armature/runtime/recording/recorded_description.hpp"
 #include "exit_code.hpp"
@@ -111,9 +111,9 @@ class PictureCopy {
 RunContents read_contents(const std::filesystem::path& file) {
   McapReader reader{file, true};
   RunContents contents;
-  contents.processes = recorded_processes(file);
+  contents.copies = RecordedCopies{file};
   while (const auto message = reader.next()) {
-    if (is_doubled(*message->channel, contents.processes)) continue;
+    if (contents.copies.has(*message)) continue;
     ++contents.topics[message->channel->topic].messages;
     const bool is_first = contents.messages++ == 0;
     contents.first = is_first ? message->log_time : std::min(contents.first, message->log_time);
@@ -128,8 +128,15 @@ RunContents read_contents(const std::filesystem::path& file) {
   contents.chain = reader.chain();
   contents.is_whole = reader.problems().empty();
   contents.repairs = repairs_told_by(reader.metadata());
+  std::ranges::move(losses_told_by(reader.metadata()), std::back_inserter(contents.repairs));
   for (const McapMetadata& metadata : reader.metadata()) {
     if (metadata.name == kDeploymentMetadata) contents.deployment = metadata.values;
+    if (metadata.name != kEndMetadata) continue;
+    const auto thinned = metadata.values.find(kThinnedKey);
+    if (thinned == metadata.values.end()) continue;
+    std::uint64_t count = 0;
+    std::from_chars(thinned->second.data(), thinned->second.data() + thinned->second.size(), count);
+    contents.thinned += count;
   }
   for (const McapAttachment& attachment : reader.attachments()) {
     if (attachment.name == kFiguresAttachment) contents.figures = attachment.data;
@@ -153,17 +160,17 @@ Reduced reduced(const std::filesystem::path& recording, const RunContents& conte
   McapWriter writer{file.path(), {.library = "armature " ARMATURE_VERSION}};
   MessageCopy copy{reader, writer};
   PictureCopy pictures{writer};
-  std::map<std::string, Thinning> topics;
+  std::map<std::uint16_t, Thinning> channels;  // several may write a topic, at the same times
   std::uint64_t seen = 0;
   while (const auto message = reader.next()) {
     const McapChannel& channel = *message->channel;
-    if (is_doubled(channel, contents.processes)) continue;
+    if (contents.copies.has(*message)) continue;
     const auto topic = contents.topics.find(channel.topic);
     if (topic == contents.topics.end() || ++seen > contents.messages) continue;
-    if (!topics.contains(channel.topic)) {
-      topics.emplace(channel.topic, kept_hz(channel.topic, contents, with_pictures));
+    if (!channels.contains(channel.id)) {
+      channels.emplace(channel.id, kept_hz(channel.topic, contents, with_pictures));
     }
-    if (!topics.at(channel.topic).passes(message->log_time)) continue;
+    if (!channels.at(channel.id).passes(message->log_time)) continue;
     const bool is_raw = topic->second.type == kImage;
     if (!is_raw || !pictures.write(*message)) copy.write(*message);
     if (writer.bytes() > kMaxBytes) {

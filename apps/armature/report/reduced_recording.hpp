@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "armature/recording/mcap_reader.hpp"
+#include "armature/recording/recorded_processes.hpp"
 
 namespace armature {
 
@@ -19,11 +20,12 @@ struct RunContents {
   };
   std::map<std::string, Topic> topics;
   std::uint64_t messages = 0;
+  std::uint64_t thinned = 0;  // that came, too, and that a thin recording has left out
   Time first, last;
   McapChain chain;
   bool is_whole = true;
   std::vector<std::string> repairs;               // of files that were not whole
-  std::vector<std::string> processes;             // whose recordings are in it
+  RecordedCopies copies;                          // of messages that are in it, too
   std::map<std::string, std::string> deployment;  // version, fingerprint, ..
   std::string figures;                            // of the run, as JSON; empty: it has none
 

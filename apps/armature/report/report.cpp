@@ -103,10 +103,11 @@ nlohmann::ordered_json provenance(const ReportOptions& options, const RunContent
   add("Version", of_deployment("version"));
   add("Fingerprint", of_deployment("fingerprint"));
   add("Clock", of_deployment("clock"));
-  add("In this page", fmt::format("{} of {} messages: at most {} a second of a topic, {} of a "
-                                  "camera{}",
-                                  kept.messages, contents.messages, kMaxPageHz, kMaxPagePictureHz,
-                                  options.pictures ? "" : "; without pictures"));
+  add("In this page",
+      fmt::format("{} of {} messages: about {} a second of each writer of a topic, {} of a "
+                  "camera{}",
+                  kept.messages, contents.messages + contents.thinned, kMaxPageHz,
+                  kMaxPagePictureHz, options.pictures ? "" : "; without pictures"));
   add("Page by", "armature " ARMATURE_VERSION);
   return told;
 }
@@ -166,10 +167,10 @@ WrittenReport write_report(const ReportOptions& options) {
                           escaped(json_text(provenance(options, contents, kept))),
                           escaped(contents.figures), base64(kept.bytes)));
   write_atomically(options.out, page, options.use);
-  return {
-      .text = fmt::format("{}: {} of {} messages, {:.3f} MB", options.out.string(), kept.messages,
-                          contents.messages, 1e-6 * static_cast<double>(page.size())),
-      .notes = notes_on(options, contents)};
+  return {.text = fmt::format("{}: {} of {} messages, {:.3f} MB", options.out.string(),
+                              kept.messages, contents.messages + contents.thinned,
+                              1e-6 * static_cast<double>(page.size())),
+          .notes = notes_on(options, contents)};
 }
 
 int print_report(const ReportOptions& options) {

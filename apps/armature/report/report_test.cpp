@@ -183,10 +183,38 @@ TEST_F(ReportTest, KeepsFiftyMessagesASecondAndTwoPictures) {
           {"/right", "sensor_msgs/msg/Image", 40, 100}});
   ASSERT_EQ(report(), kOk) << reason_;
   const std::map<std::string, int> kept{
-      {"/fast", 200}, {"/slow", 160}, {"/tf", 4000}, {"/left/compressed", 8}, {"/right", 8}};
+      {"/fast", 200 + 10}, {"/slow", 160}, {"/tf", 4000}, {"/left/compressed", 8}, {"/right", 8}};
   EXPECT_EQ(counts(), kept);
   ASSERT_EQ(report(false, true), kOk) << reason_;
   EXPECT_EQ(counts().size(), 3U) << "no pictures";
+}
+
+TEST_F(ReportTest, KeepsSoManyOfEachWriterOfATopicThatSeveralShare) {
+  record({{"/shared", "std_msgs/msg/String", 200, 5}, {"/shared", "std_msgs/msg/String", 200, 5}});
+  ASSERT_EQ(report(), kOk) << reason_;
+  McapReader reader{inside()};
+  std::map<std::uint16_t, int> by_writer;
+  while (const auto message = reader.next()) ++by_writer[message->channel->id];
+  ASSERT_EQ(by_writer.size(), 2U);
+  EXPECT_EQ(by_writer.begin()->second, by_writer.rbegin()->second);
+  EXPECT_GE(by_writer.begin()->second, 50);
+}
+
+TEST_F(ReportTest, TellsWhatItsRunHasNotRecorded) {
+  {
+    McapWriter writer{recording_.path(), {}};
+    write_all_but_the_end(writer, 100);
+    writer.add(McapMetadata{.name = "armature.end",
+                            .values = {{"process", "main"},
+                                       {"lost of src", "7"},
+                                       {"strays of work", "3"},
+                                       {"thinned", "50"}}});
+    writer.close();
+  }
+  ASSERT_EQ(report(), kOk) << reason_;
+  EXPECT_THAT(out_.bytes(), HasSubstr("7 calls of 'src' were not recorded"));
+  EXPECT_THAT(out_.bytes(), HasSubstr("3 messages of threads of 'work' were not recorded"));
+  EXPECT_THAT(out_.bytes(), HasSubstr("of 150 messages"));
 }
 
 TEST_F(ReportTest, HasRawPicturesAsJpegWhereThePageLooksForThem) {

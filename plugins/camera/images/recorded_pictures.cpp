@@ -80,10 +80,8 @@ RecordedPictures::RecordedPictures(std::filesystem::path file, std::string left,
     if (const auto summary = read_summary(file_)) {
       left_ = topic_of(*summary, file_, "left_topic", left_);
       right_ = topic_of(*summary, file_, "right_topic", right_);
-      processes_ = processes_of(summary->metadata);
-    } else {
-      processes_ = recorded_processes(file_);
     }
+    copies_ = RecordedCopies{file_};
     reader_ = std::make_unique<McapReader>(file_);
   } catch (const SetupError&) {
     throw;
@@ -94,7 +92,7 @@ RecordedPictures::RecordedPictures(std::filesystem::path file, std::string left,
 
 std::optional<pictures::Side> RecordedPictures::side_of(const McapMessage& message) const {
   if (!has_pictures(reader_->schemas(), *message.channel)) return std::nullopt;
-  if (is_doubled(*message.channel, processes_)) return std::nullopt;
+  if (copies_.has(message)) return std::nullopt;
   if (is_named(message.channel->topic, left_)) return pictures::Side::left;
   if (is_named(message.channel->topic, right_)) return pictures::Side::right;
   return std::nullopt;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "armature/recording/mcap_reader.hpp"
+#include "armature/recording/recorded_processes.hpp"
 #include "picture_source.hpp"
 
 namespace armature::camera::images {
@@ -39,8 +40,8 @@ class RecordedPictures final : public pictures::PictureSource {
 
   std::filesystem::path file_;
   std::string left_, right_;
-  std::array<std::string, 2> topics_;   // whole names, by side; "" before the first picture
-  std::vector<std::string> processes_;  // whose recordings are in the file
+  std::array<std::string, 2> topics_;  // whole names, by side; "" before the first picture
+  RecordedCopies copies_;
   std::unique_ptr<McapReader> reader_;
   std::optional<Time> last_left_;
   Duration last_interval_;

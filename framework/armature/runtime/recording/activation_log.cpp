@@ -15,6 +15,7 @@ void ActivationLog::begin(ComponentCall call, Time now) {
   is_called_.store(true, std::memory_order_release);
   next_ = ended_.load(std::memory_order_relaxed);
   is_too_long_ = false;
+  published_ = 0;
   put({.kind = Entry::Kind::begin, .call = call, .number = now.ns});
   if (const std::uint64_t before = lost(); before > 0) {
     put({.kind = Entry::Kind::lost, .number = static_cast<std::int64_t>(before)});
@@ -30,6 +31,7 @@ void ActivationLog::end(std::string_view failure) {
   is_called_.store(false, std::memory_order_release);
   if (is_too_long_) {
     lost_.fetch_add(1, std::memory_order_relaxed);
+    lost_samples_.fetch_add(published_, std::memory_order_relaxed);
     for (auto position = ended_.load(std::memory_order_relaxed); position < next_; ++position) {
       at(position).sample = {};
     }
@@ -55,6 +57,7 @@ bool ActivationLog::is_of_call() const {
 
 void ActivationLog::published(const SampleRef& sample) {
   if (is_of_call()) {
+    ++published_;
     put({.kind = Entry::Kind::published, .number = clock_->now().ns, .sample = sample});
   } else {
     strays_.fetch_add(1, std::memory_order_relaxed);

@@ -34,7 +34,8 @@ class ActivationLog final : public ActivationTap {
   };
 
   /// `capacity` is a power of two. A full ring loses the call, or with `waits` the component waits
-  /// until there is room, which is for the simulated clock. `clock` outlives it.
+  /// until there is room, which is for the simulated clock. A call with more parts than it has room
+  /// for is lost all the same. `clock` outlives it.
   ActivationLog(std::size_t capacity, const Clock& clock, bool waits);
 
   void begin(ComponentCall call, Time now) override;
@@ -51,6 +52,8 @@ class ActivationLog final : public ActivationTap {
   bool is_called() const { return is_called_.load(std::memory_order_acquire); }
   /// Calls that were not kept. Any thread.
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
+  /// What these had published. Any thread.
+  std::uint64_t lost_samples() const { return lost_samples_.load(std::memory_order_relaxed); }
   /// Samples that came from other threads than the one that called the component; they belong to no
   /// call and are not kept. Any thread.
   std::uint64_t strays() const { return strays_.load(std::memory_order_relaxed); }
@@ -69,11 +72,12 @@ class ActivationLog final : public ActivationTap {
   std::atomic<std::uint64_t> taken_{0}, ended_{0};  // positions: what is between them can be taken
   std::uint64_t next_ = 0;                          // of the running call
   std::uint64_t known_taken_ = 0;                   // as its thread has seen it last
+  std::uint64_t published_ = 0;                     // by the running call
   bool is_too_long_ = false;                        // the running call does not fit
   std::string failure_;
   std::atomic<bool> is_called_{false};
   std::atomic<pthread_t> thread_{};
-  std::atomic<std::uint64_t> lost_{0}, strays_{0};
+  std::atomic<std::uint64_t> lost_{0}, lost_samples_{0}, strays_{0};
 };
 
 }  // namespace armature

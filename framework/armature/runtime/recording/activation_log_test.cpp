@@ -57,6 +57,7 @@ TEST_F(ActivationLogTest, LosesWholeCallsAndCountsThem) {
   ActivationLog log{8, clock_, false};
   for (int i = 0; i < 5; ++i) call(log, Time{i});
   EXPECT_EQ(log.lost(), 3U);
+  EXPECT_EQ(log.lost_samples(), 3U);
   EXPECT_EQ(take_all(log).size(), 2 * kCall.size());
   EXPECT_EQ(pool_.grown(), 1U) << "a sample of a lost call was kept";
   call(log, Time{5});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -26,8 +27,10 @@ inline std::optional<double> page_rate_hz(std::string_view ros_type) {
   return kMaxPageHz;
 }
 
-/// Passes the first message of each period. Periods count from the epoch of the clock, so what was
-/// thinned once is not thinned more by the same rate.
+/// Passes the first message of each period, and of a topic that is slow on the average also those
+/// that come together: one for each period before in which none came, up to a fifth of a second's.
+/// Periods count from the epoch of the clock, so what was thinned once is not thinned more by the
+/// same rate.
 class Thinning {
  public:
   /// Nothing: everything passes. 0: nothing does.
@@ -38,7 +41,10 @@ class Thinning {
     if (*hz_ == 0) return false;
     const auto period_ns = static_cast<std::int64_t>(1e9 / *hz_);
     const std::int64_t period = at.ns / period_ns;
-    if (period == last_) return false;
+    const auto most_spare = static_cast<std::int64_t>(*hz_ / 5);
+    if (period == last_) return spare_ > 0 && spare_-- > 0;
+    spare_ =
+        last_ ? std::clamp<std::int64_t>(spare_ + period - *last_ - 1, 0, most_spare) : most_spare;
     last_ = period;
     return true;
   }
@@ -46,6 +52,7 @@ class Thinning {
  private:
   std::optional<double> hz_;
   std::optional<std::int64_t> last_;
+  std::int64_t spare_ = 0;
 };
 
 }  // namespace armature

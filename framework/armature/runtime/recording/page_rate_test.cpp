@@ -27,6 +27,17 @@ TEST(Thinning, WhatWasThinnedOnceIsNotThinnedMoreByTheSameRate) {
   EXPECT_EQ(thinned(once, 2), once);
 }
 
+TEST(Thinning, WhatComesTogetherOnASlowTopicPassesAndOnAFastOneDoesNot) {
+  std::vector<Time> slow, fast;
+  for (int i = 0; i < 40; ++i) {  // four at once, at 5 Hz
+    for (int k = 0; k < 4; ++k) slow.push_back(Time{kMs * 200 * i});
+  }
+  for (int i = 0; i < 2000; ++i) fast.push_back(Time{kMs * i});
+  EXPECT_EQ(thinned(slow, 100), slow);
+  EXPECT_EQ(thinned(thinned(slow, 100), 100), slow);
+  EXPECT_EQ(thinned(fast, 100).size(), 200U + 20U) << "of 2 s, and what a beginning may have more";
+}
+
 TEST(Thinning, EverythingPassesWithoutARateAndNothingWithZero) {
   Thinning all{std::nullopt}, none{0};
   for (int i = 0; i < 3; ++i) {

@@ -7,20 +7,17 @@
 
 #include "armature/messages/armature_msgs.hpp"
 #include "armature/recording/mcap_queue.hpp"
+#include "armature/recording/recorded_processes.hpp"
 
 namespace armature ARMATURE_EXPORT {
 
 /// Names of the metadata in a recording.
 inline constexpr std::string_view kDeploymentMetadata = "armature.deployment";
 inline constexpr std::string_view kComponentMetadata = "armature.component";
-inline constexpr std::string_view kEndMetadata = "armature.end";    // missing: it was cut off
-inline constexpr std::string_view kPartMetadata = "armature.part";  // of files that were joined
-inline constexpr std::string_view kRepairedMetadata = "armature.repaired";  // by record --repair
-/// Key of a channel with samples of one writer in another process: they have the numbers that it
-/// gave them, and so have those that its own process recorded.
-inline constexpr const char* kNumberedKey = "numbered";
 /// Key of the metadata kEndMetadata: how many activations the process has numbered.
 inline constexpr const char* kActivationsKey = "activations";
+/// Another: how many messages a thin recording has left out.
+inline constexpr const char* kThinnedKey = "thinned";
 /// Keys of the metadata of a process on another host than the main one: its name, and by how many
 /// seconds the deployment's clock, by which everything is recorded, was ahead of its own.
 inline constexpr const char* kHostKey = "host";

@@ -272,7 +272,9 @@ void RunRecorder::take(Component& component, ActivationLog::Entry& entry) {
 /// Writes the sample, unless that was done for another reader of it.
 void RunRecorder::keep(const SampleRef& sample, Time at, Channel& channel) {
   const SampleInfo& info = sample.info();
-  if (!channel.is_kept || !channel.written.add(info.sequence) || !channel.thinning.passes(at)) {
+  if (!channel.is_kept || !channel.written.add(info.sequence)) return;
+  if (!channel.thinning.passes(at)) {
+    if (channel.from.empty()) ++thinned_;
     return;
   }
   if (!channel.id) {
@@ -307,9 +309,10 @@ std::string RunRecorder::close(const std::optional<McapAttachment>& figures) {
   add_end();
   queue_.close();
   if (options_.around_faults) return {};
-  std::uint64_t lost = 0, strays = 0;
+  std::uint64_t lost = 0, lost_calls = 0, strays = 0;
   for (const auto& component : components_) {
-    lost += component->log.lost();
+    lost += component->log.lost_samples();
+    lost_calls += component->log.lost();
     strays += component->log.strays();
   }
   for (const auto& [channel, count] : queue_.dropped()) lost += count;
@@ -317,6 +320,12 @@ std::string RunRecorder::close(const std::optional<McapAttachment>& figures) {
                                  options_.file.string(), queue_.messages(), count_,
                                  1e-6 * static_cast<double>(queue_.bytes()), queue_.head());
   if (lost > 0) text += fmt::format("; {} came faster than they could be written", lost);
+  if (lost_calls > 0) {
+    text += fmt::format(
+        "; {} calls of components are not in it, with all that they published: the "
+        "recorder was too slow, or a call had more than {} messages",
+        lost_calls, kRing - 2);
+  }
   if (strays > 0)
     text += fmt::format("; {} samples of threads of components are not in it", strays);
   return text;
@@ -329,6 +338,7 @@ Duration RunRecorder::clock_ahead() const { return clock_.now() - SystemClock{}.
 void RunRecorder::add_end() {
   std::map<std::string, std::string> values{{kProcessKey, options_.description.process_()},
                                             {kActivationsKey, fmt::format("{}", count_)}};
+  if (thinned_ > 0) values[kThinnedKey] = fmt::format("{}", thinned_);
   if (!other_host_.empty()) {
     values[kClockAheadKey] = fmt::format("{:.6f}", to_seconds(clock_ahead()));
   }
@@ -337,6 +347,9 @@ void RunRecorder::add_end() {
     if (component->is_of_runtime) continue;
     if (const auto lost = component->log.lost()) {
       values["lost of " + name] = fmt::format("{}", lost);
+    }
+    if (const auto strays = component->log.strays()) {
+      values["strays of " + name] = fmt::format("{}", strays);
     }
     if (component->log.is_called()) values["running in " + name] = "1";
   }

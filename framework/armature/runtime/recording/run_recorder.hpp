@@ -130,6 +130,7 @@ class RunRecorder {
   McapQueue queue_;
   std::uint16_t activations_ = 0;  // the channel
   std::uint64_t count_ = 0;        // of them
+  std::uint64_t thinned_ = 0;      // messages
   std::vector<std::unique_ptr<Component>> components_;
   std::unordered_map<std::uint32_t, Channel> channels_;  // by writer
   Reader reader_;                                        // of topics that are named whole

@@ -181,7 +181,8 @@ endfunction()
 # One GoogleTest program; every case runs alone and in any order. Its files are compiled a few at a
 # time, which reads headers and makes templates once for them; SEPARATELY: they use the same names
 # for other things. QUARTERS: of a core that a case keeps busy on the average, 4 unless it waits most
-# of the time. Whoever needs a TIMEOUT of its own is long, and begins before all others: what is short
+# of the time. LABELS: instead of ARMATURE_TEST_LABEL, that of the folder (tests/CMakeLists.txt).
+# Whoever needs a TIMEOUT of its own is long, and begins before all others: what is short
 # fills the cores at the end.
 function(armature_add_test name)
   if(NOT ARMATURE_BUILD_TESTS)
@@ -200,8 +201,13 @@ function(armature_add_test name)
   if(NOT arg_QUARTERS)
     set(arg_QUARTERS 4)
   endif()
+  if(NOT arg_LABELS)
+    set(arg_LABELS "${ARMATURE_TEST_LABEL}")
+  endif()
+  set(timeout_of_all 600)
   if(ARMATURE_SANITIZE)  # which slows everything down
     math(EXPR arg_TIMEOUT "${arg_TIMEOUT} * 5")
+    set(timeout_of_all 3000)
   endif()
   add_executable(${name} ${arg_SOURCES})
   armature_compile_as_test(${name})
@@ -216,6 +222,12 @@ function(armature_add_test name)
   include(GoogleTest)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
     PROPERTIES TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_QUARTERS} COST ${cost} LABELS "${arg_LABELS}")
+  if(NOT arg_LABELS MATCHES "^(all|full)$")
+    # All of its cases in one go, for `tools/test`: a third of their time is that programs start.
+    add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
+    set_tests_properties(${name} PROPERTIES
+      TIMEOUT ${timeout_of_all} PROCESSORS ${arg_QUARTERS} COST 1 LABELS program)
+  endif()
 endfunction()
 
 # armature_add_contract(path [SOURCES sound_path.cpp] LINK Armature::path): laws.cpp and SOURCES, what

@@ -223,7 +223,7 @@ function(armature_add_test name)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
     PROPERTIES TIMEOUT ${arg_TIMEOUT} PROCESSORS ${arg_QUARTERS} COST ${cost} LABELS "${arg_LABELS}")
   if(NOT arg_LABELS MATCHES "^(all|full)$")
-    # All of its cases in one go, for `tools/test`: a third of their time is that programs start.
+    # All of its cases in one go, for `tools/test`: most cases are shorter than the start of a program.
     add_test(NAME ${name} COMMAND ${name} --gtest_brief=1)
     set_tests_properties(${name} PROPERTIES
       TIMEOUT ${timeout_of_all} PROCESSORS ${arg_QUARTERS} COST 1 LABELS program)

@@ -28,7 +28,7 @@ bool is_same_param(const ParamSpec& spec, const Params& before, const Params& no
   return false;
 }
 
-/// Of one plugin, a component or one in a slot.
+/// Compares the parameters of one plugin, that of a component or of a slot.
 bool are_same_params(const PluginManifest& manifest, const Params& before, const Params& now) {
   return std::ranges::all_of(
       manifest.params, [&](const ParamSpec& spec) { return is_same_param(spec, before, now); });
@@ -52,7 +52,7 @@ std::string documents_of(const ComponentConfig& component, const DeploymentConfi
   return text;
 }
 
-/// Of each input, whether a component of the deployment writes it.
+/// Tells of each input whether a component of the deployment writes it.
 std::vector<bool> written_inputs(const ComponentConfig& component,
                                  const DeploymentConfig& deployment) {
   std::vector<bool> written;
@@ -77,7 +77,7 @@ bool is_told_the_same(const ComponentConfig& one, const DeploymentConfig& before
 
 std::vector<std::string> changed_components(const DeploymentConfig& before,
                                             const DeploymentConfig& now) {
-  // Each draws its own numbers from the seed, and may ask how long an end takes.
+  // Every component draws its own numbers from the seed, and may ask how long an end takes.
   const bool all = before.seed != now.seed || before.stop_within_s != now.stop_within_s;
   std::vector<std::string> changed;
   for (const ComponentConfig& component : before.components) {

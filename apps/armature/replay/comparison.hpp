@@ -21,7 +21,7 @@ struct OtherFailure {
   std::string recorded, now;  // empty: it did not fail
 };
 
-/// What is compared of one component.
+/// The differences of one component.
 struct ComparedComponent {
   std::map<std::string, TopicDifferences> topics;
   std::optional<OtherFailure> failure;
@@ -49,7 +49,7 @@ class Comparison {
   bool is_complete() const;
   /// Whether all that is called recorded is what was recorded.
   bool repeats() const;
-  /// Of one of components().
+  /// Takes the name of one of components().
   const Repetition& repetition(const std::string& component) const {
     return repetitions_.at(component);
   }

@@ -72,8 +72,8 @@ bool is_next(const Written& written, const Copy& copy, bool is_numbered, std::ui
   return place.has_value();
 }
 
-/// How often several writers together have written that content. Which of them a copy is from is
-/// not told, so their order cannot be held to anything.
+/// Counts how often several writers together have written that content. Which of them a copy is
+/// from is not told, so their order cannot be held to anything.
 std::uint64_t times_written(const std::map<std::uint16_t, Written>& writers, std::size_t hash) {
   std::uint64_t times = 0;
   for (const auto& [channel, written] : writers) {

@@ -15,7 +15,7 @@
 namespace armature {
 namespace {
 
-/// Of JSON, NaN is not equal to itself.
+/// Takes NaN for equal to NaN, which JSON does not.
 bool is_none_in_both(const nlohmann::ordered_json& before, const nlohmann::ordered_json& now) {
   return before.is_number_float() && now.is_number_float() && std::isnan(before.get<double>()) &&
          std::isnan(now.get<double>());
@@ -80,7 +80,7 @@ void TopicDifferences::walk_array(const Json& before, const Json& now, const Pla
   for (std::size_t i = 0; i < std::min(before.size(), now.size()); ++i) {
     if (before[i] == now[i]) continue;
     walk(before[i], now[i], {place.name + "[]", fmt::format("{}[{}]", place.element, i)}, at_s);
-    // Of integers the first that differs is told: a picture has a million octets.
+    // Only the first integer that differs is told: a picture has a million octets.
     if (before[i].is_number_integer()) break;
   }
   if (before.size() != now.size()) {

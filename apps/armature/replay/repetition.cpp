@@ -20,7 +20,7 @@ std::string_view call_name(std::uint8_t call) {
   return call < kNames.size() ? kNames[call] : "?";
 }
 
-/// Of an output whose bytes are not those that were recorded.
+/// Names the difference of an output whose bytes are not those that were recorded.
 Repetition::Otherwise other_message(const ReplayedMessage& message,
                                     std::span<const std::byte> recorded) {
   const TypeDescription* type = describe_type(message.type->dds_name);

@@ -14,8 +14,8 @@ namespace armature::face_pose::surface {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
-// Of an eye that turns away from the camera on a narrow head a finder sees the border and not the
-// middle, and sees it so in every look.
+// A finder sees the border and not the middle of an eye that turns away from the camera on a narrow
+// head, and sees it so in every look.
 constexpr double kMaxAside = 50 / kDegrees, kMaxApart = 56 / kDegrees;
 constexpr double kMaxShift = 0.003;  // [m] by which pictures that are not rectified move a face
 

@@ -66,7 +66,7 @@ bool can_be_one_face(const PixelBox& in_right, const PixelBox& in_left) {
          std::abs(centre(in_right).y() - centre(in_left).y()) < kStripSlack * in_left.height;
 }
 
-/// By how much the landmarks of two boxes differ in rows, on the average [px]; infinitely much
+/// The mean difference in rows of the landmarks of two boxes [px]; infinite
 /// where those of the right picture are not further left.
 double row_difference(const std::vector<Landmark>& in_right, const std::vector<Landmark>& in_left) {
   double rows = 0, columns = 0;
@@ -221,8 +221,8 @@ StereoFaceFinder::Faces StereoFaceFinder::find_right(const ImageView& right,
   return likely;
 }
 
-/// Of faces in the right picture whose boxes cannot be told apart, least cost first, the one whose
-/// landmarks lie in the rows of the left face's, and by how much those differ [px].
+/// Finds, among faces in the right picture whose boxes cannot be told apart (least cost first), the
+/// one whose landmarks lie in the rows of the left face's, and by how much those differ [px].
 std::pair<DetectedFace, double> StereoFaceFinder::most_alike(const ImageView& right,
                                                              const std::vector<DetectedFace>& faces,
                                                              const ImageView& left,

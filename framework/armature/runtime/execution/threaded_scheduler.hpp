@@ -15,7 +15,7 @@ namespace armature ARMATURE_EXPORT {
 class ThreadedScheduler final : public Scheduler {
  public:
   using Note = std::function<void(const std::string&)>;
-  /// As Executor::start() has them.
+  /// Hands both to Executor::start().
   ThreadedScheduler(const Clock& clock, Note note, Note on_late = {})
       : clock_{&clock}, note_{std::move(note)}, on_late_{std::move(on_late)} {}
 

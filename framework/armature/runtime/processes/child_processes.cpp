@@ -86,7 +86,7 @@ void ChildProcesses::welcome(Child& agent, const std::string& fingerprint) {
 void ChildProcesses::update() {
   const auto now = SteadyClock::now();
   const Duration still = now - std::exchange(updated_, now).value_or(now);
-  // What is lost later than that is lost for another reason.
+  // A host that is lost later than that is lost for another reason.
   stood_still_ = still > HostLink::kSilence ? still : std::max(stood_still_ - still, Duration{0});
   for (const auto& host : hosts_) {
     host->update();

@@ -52,7 +52,7 @@ class ActivationLog final : public ActivationTap {
   bool is_called() const { return is_called_.load(std::memory_order_acquire); }
   /// Calls that were not kept. Any thread.
   std::uint64_t lost() const { return lost_.load(std::memory_order_relaxed); }
-  /// What these had published. Any thread.
+  /// Messages that these had published. Any thread.
   std::uint64_t lost_samples() const { return lost_samples_.load(std::memory_order_relaxed); }
   /// Samples that came from other threads than the one that called the component; they belong to no
   /// call and are not kept. Any thread.

@@ -41,10 +41,10 @@ class Thinning {
     if (*hz_ == 0) return false;
     const auto period_ns = static_cast<std::int64_t>(1e9 / *hz_);
     const std::int64_t period = at.ns / period_ns;
-    const auto most_spare = static_cast<std::int64_t>(*hz_ / 5);
+    const auto max_spare = static_cast<std::int64_t>(*hz_ / 5);
     if (period == last_) return spare_ > 0 && spare_-- > 0;
     spare_ =
-        last_ ? std::clamp<std::int64_t>(spare_ + period - *last_ - 1, 0, most_spare) : most_spare;
+        last_ ? std::clamp<std::int64_t>(spare_ + period - *last_ - 1, 0, max_spare) : max_spare;
     last_ = period;
     return true;
   }
